@@ -1,0 +1,2 @@
+//! The program `hapflow`.
+fn main() {}

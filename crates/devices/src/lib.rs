@@ -1,0 +1,1 @@
+//! Haptic devices of hapflow: null, replay and a simulated hand.

@@ -1,0 +1,1 @@
+//! The session of hapflow: scenes, servo loop, fluid loop, reports.

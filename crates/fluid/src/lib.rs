@@ -1,0 +1,1 @@
+//! The fluid of hapflow: SPH solvers, boundaries, sources and backends.

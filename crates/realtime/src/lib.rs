@@ -1,0 +1,1 @@
+//! Wait-free hand-overs, clocks and real-time threads of hapflow.
