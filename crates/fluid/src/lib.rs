@@ -1,1 +1,38 @@
-//! The fluid of hapflow: SPH solvers, boundaries, sources and backends.
+//! The fluid: smoothed particle hydrodynamics (SPH) in three dimensions, and what stands in it.
+//!
+//! A [`FluidBackend`] takes a [`FluidConfig`], steps one *fluid frame* at a time while the bodies follow the
+//! motion they are given, and answers with the load of the fluid on each body. Backends:
+//! [`CpuBackend`] (solvers [`Solver::Muller`] and [`Solver::Wcsph`], rayon and SIMD) and [`AnalyticJet`]
+//! (closed form). [`twin`] is the plain scalar oracle that tests compare with.
+//!
+//! SI units, right-handed, y up; f32 in the particles, f64 at the border. Nothing here knows of devices,
+//! threads of others or haptics.
+#![forbid(unsafe_code)]
+
+mod analytic_jet;
+mod backend;
+mod body;
+mod config;
+mod cpu;
+mod emitter;
+mod grid;
+pub mod kernel;
+mod lanes;
+mod limits;
+mod particles;
+mod pools;
+mod shape;
+mod solids;
+mod solver;
+pub mod twin;
+mod wall;
+
+pub use analytic_jet::{AnalyticJet, jet_force};
+pub use backend::{FluidBackend, FluidError, FrameInput, FrameOutput, ParticleView};
+pub use body::{BodyDrive, BodyLoad, BodyMotion, BodySample, BodyState};
+pub use config::{
+    Aabb, BodyConfig, FluidConfig, FluidSettings, InteractionMode, OpenBox, Solver, Source, World,
+};
+pub use cpu::CpuBackend;
+pub use limits::{StepLimits, step_limits};
+pub use shape::Shape;

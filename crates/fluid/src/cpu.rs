@@ -1,0 +1,428 @@
+//! The CPU backend: rayon over chunks of sorted particles, vector lanes inside.
+//!
+//! One frame = motion of the bodies, then n sub-steps of { emit, sort, forces, integrate, contacts }, then the
+//! mean load on each body. The whole frame runs inside the backend's own pool. Nothing depends on the number
+//! of threads: see `solver`.
+
+use crate::backend::{FluidBackend, FluidError, FrameInput, FrameOutput, ParticleView};
+use crate::body::{Body, BodyLoad, BodyNow, BodyTables};
+use crate::emitter::Emitter;
+use crate::grid::Grid;
+use crate::particles::{Newborn, Particles};
+use crate::solids::{Meeting, Solids, Walls};
+use crate::solver::muller::Muller;
+use crate::solver::wcsph::{PACKING_INTERVAL, Wcsph};
+use crate::solver::{Pass, Rows};
+use crate::wall::WallTable;
+use crate::{BodyMotion, FluidConfig, InteractionMode, Solver, limits, pools};
+use glam::Vec3;
+
+/// A fluid on the CPU.
+pub struct CpuBackend {
+    config: FluidConfig,
+    pool: rayon::ThreadPool,
+    arch: pulp::Arch,
+    fluid: Fluid,
+    output: FrameOutput,
+    ready: bool,
+}
+
+impl std::fmt::Debug for CpuBackend {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("CpuBackend").field("particles", &self.fluid.particles.len()).finish_non_exhaustive()
+    }
+}
+
+impl CpuBackend {
+    /// A fluid of `config`, its pools filled.
+    ///
+    /// # Errors
+    /// What [`FluidConfig::check`] refuses, too many particles, or worker threads that could not be made.
+    pub fn new(config: &FluidConfig) -> Result<Self, FluidError> {
+        config.check()?;
+        let newborn = pools::fill(config)?;
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(config.threads.max(1))
+            .thread_name(|k| format!("hapflow-fluid-{k}"))
+            .build()
+            .map_err(|e| FluidError::Threads(e.to_string()))?;
+        let mut fluid = Fluid::new(config);
+        fluid.particles.extend(&newborn);
+        Ok(Self {
+            config: config.clone(),
+            pool,
+            arch: pulp::Arch::new(),
+            fluid,
+            output: FrameOutput::default(),
+            ready: false,
+        })
+    }
+}
+
+impl FluidBackend for CpuBackend {
+    fn name(&self) -> &'static str {
+        "cpu"
+    }
+
+    fn configure(&mut self, config: &FluidConfig) -> Result<(), FluidError> {
+        config.check()?;
+        self.fluid.adapt(&self.config, config);
+        self.config = config.clone();
+        Ok(())
+    }
+
+    fn submit(&mut self, frame: &FrameInput<'_>) {
+        let Self { config, pool, arch, fluid, output, .. } = self;
+        let arch = *arch;
+        pool.install(|| fluid.frame(config, arch, frame, output));
+        self.ready = true;
+    }
+
+    fn poll(&mut self) -> Option<&FrameOutput> {
+        std::mem::take(&mut self.ready).then_some(&self.output)
+    }
+
+    fn snapshot(&mut self, view: &mut ParticleView) {
+        self.fluid.snapshot(&self.config, view);
+    }
+}
+
+/// The constants of the solver in use.
+#[derive(Clone, Copy)]
+enum Method {
+    Muller(Muller),
+    Wcsph(Wcsph),
+}
+
+/// State and scratch of the fluid.
+struct Fluid {
+    particles: Particles,
+    bodies: Vec<Body>,
+    emitters: Vec<Emitter>,
+    method: Method,
+    walls: Walls,
+    plane: WallTable,
+    tables: BodyTables,
+    time: f64,
+    substep: u64,
+    max_speed: f32,
+    /// Interaction has just been switched on: forgive the overlaps that it finds.
+    forgive: bool,
+    grid: Grid,
+    rows: Rows,
+    partial: Vec<BodyLoad>,
+    dead: Vec<bool>,
+    newborn: Vec<Newborn>,
+    now: Vec<BodyNow>,
+    step_loads: Vec<BodyLoad>,
+    degraded: bool,
+}
+
+/// One sub-step.
+#[derive(Clone, Copy)]
+struct Step {
+    dt: f64,
+    /// How contacts by impulse are met.
+    contact: ContactRule,
+    /// Highest speed a particle may have, m/s.
+    cap: f32,
+    /// Above this the cap is no setting but a rescue, m/s.
+    guard: f32,
+}
+
+#[derive(Clone, Copy)]
+struct ContactRule {
+    /// Distance from a surface at which a particle is stopped, m.
+    distance: f32,
+    restitution: f32,
+}
+
+impl Fluid {
+    fn new(config: &FluidConfig) -> Self {
+        let support = config.settings.support_length();
+        Self {
+            particles: Particles::new(),
+            bodies: config.world.bodies.iter().map(|&b| Body::new(b)).collect(),
+            emitters: vec![Emitter::default(); config.world.sources.len()],
+            method: Method::new(config),
+            walls: Walls::new(&config.world, config.settings.spacing),
+            plane: WallTable::plane(support),
+            tables: BodyTables::new(&config.world.bodies, support),
+            time: 0.0,
+            substep: 0,
+            max_speed: 0.0,
+            forgive: false,
+            grid: Grid::default(),
+            rows: Rows::new(),
+            partial: Vec::new(),
+            dead: Vec::new(),
+            newborn: Vec::new(),
+            now: Vec::new(),
+            step_loads: vec![BodyLoad::default(); config.world.bodies.len()],
+            degraded: false,
+        }
+    }
+
+    /// Takes new settings over without losing the fluid.
+    fn adapt(&mut self, old: &FluidConfig, new: &FluidConfig) {
+        self.method = Method::new(new);
+        for (body, config) in self.bodies.iter_mut().zip(&new.world.bodies) {
+            body.config = *config;
+        }
+        self.emitters.resize(new.world.sources.len(), Emitter::default());
+        let support = new.settings.support_length();
+        if support != old.settings.support_length() || old.world.bodies != new.world.bodies {
+            self.plane = WallTable::plane(support);
+            self.tables = BodyTables::new(&new.world.bodies, support);
+        }
+        self.walls = Walls::new(&new.world, new.settings.spacing);
+        if new.settings.spacing != old.settings.spacing {
+            self.resample(old.settings.spacing, new);
+        }
+        let switched_on = old.settings.mode == InteractionMode::None && new.settings.mode != InteractionMode::None;
+        if switched_on || new.settings.solver != old.settings.solver || new.settings.spacing != old.settings.spacing {
+            self.particles.p.fill(0.0);
+            self.particles.slow.fill(0.0);
+            self.forgive = true;
+        }
+    }
+
+    /// Replaces the particles by others of another spacing that fill the same room with the same motion.
+    fn resample(&mut self, old_spacing: f64, new: &FluidConfig) {
+        let born = pools::resample(&self.particles, old_spacing, new.settings.spacing, new.settings.max_particles);
+        self.particles = Particles::new();
+        self.particles.extend(&born);
+    }
+
+    fn frame(&mut self, config: &FluidConfig, arch: pulp::Arch, frame: &FrameInput<'_>, output: &mut FrameOutput) {
+        let speed = f64::from(self.max_speed).max(config.reference_speed()).max(self.tool_speed(frame));
+        let needed = limits::substeps(config, frame.duration, speed);
+        let steps = needed.min(config.settings.max_substeps);
+        let step = self.plan(config, frame.duration / steps as f64);
+        self.begin(frame, output);
+        for k in 0..steps {
+            let share = (k + 1) as f64 / steps as f64;
+            self.step(config, arch, &step, frame.bodies, share);
+            for (mean, load) in output.loads.iter_mut().zip(&self.step_loads) {
+                mean.add_scaled(load, 1.0 / steps as f64);
+            }
+            output.max_speed = output.max_speed.max(f64::from(self.max_speed));
+        }
+        self.finish(frame, steps, output);
+    }
+
+    fn begin(&mut self, frame: &FrameInput<'_>, output: &mut FrameOutput) {
+        for (body, motion) in self.bodies.iter_mut().zip(frame.bodies) {
+            body.begin_frame(motion, frame.duration);
+        }
+        self.degraded = false;
+        output.max_speed = 0.0;
+        output.loads.clear();
+        output.loads.resize(self.bodies.len(), BodyLoad::default());
+    }
+
+    fn finish(&mut self, frame: &FrameInput<'_>, steps: usize, output: &mut FrameOutput) {
+        for (body, motion) in self.bodies.iter_mut().zip(frame.bodies) {
+            body.end_frame(motion);
+        }
+        output.bodies.clear();
+        output.bodies.extend(self.bodies.iter().map(|b| b.state));
+        output.time = self.time;
+        output.particles = self.particles.len();
+        output.substeps = steps;
+        output.degraded = self.degraded;
+    }
+
+    /// Highest speed of any body along its path, m/s; a jump counts as none.
+    fn tool_speed(&self, frame: &FrameInput<'_>) -> f64 {
+        let path = frame.bodies.iter().flat_map(|m| m.path);
+        path.map(|s| s.velocity.length()).filter(|v| v.is_finite()).fold(0.0, f64::max).min(20.0)
+    }
+
+    fn plan(&self, config: &FluidConfig, dt: f64) -> Step {
+        let s = &config.settings;
+        let impulses = s.solver == Solver::Muller || s.mode == InteractionMode::None;
+        let contact = if impulses {
+            ContactRule { distance: 0.5 * s.spacing as f32, restitution: s.restitution as f32 }
+        } else {
+            // The wall's pressure stops a particle; this only catches what has come through.
+            ContactRule { distance: -0.25 * s.spacing as f32, restitution: 0.0 }
+        };
+        let guard = config.sound_speed().max(5.0 * config.reference_speed());
+        let cap = if s.max_displacement > 0.0 { s.max_displacement * config.frame_hz } else { f64::INFINITY };
+        Step { dt, contact, cap: cap.min(guard) as f32, guard: guard as f32 }
+    }
+
+    fn step(
+        &mut self,
+        config: &FluidConfig,
+        arch: pulp::Arch,
+        step: &Step,
+        motions: &[BodyMotion<'_>],
+        share: f64,
+    ) {
+        self.time += step.dt;
+        self.emit(config, step.dt);
+        for (body, motion) in self.bodies.iter_mut().zip(motions) {
+            body.advance(motion, share, step.dt);
+        }
+        self.sort(config);
+        let margin = config.settings.support_length();
+        self.now.clear();
+        self.now.extend(self.bodies.iter().map(|b| BodyNow::new(b, margin)));
+        self.step_loads.fill(BodyLoad::default());
+        if self.interacts(config.settings.mode) {
+            self.forces(arch, step.dt);
+        } else {
+            self.rows.clear();
+            self.rows.resize(self.particles.len(), [0.0; 4]);
+        }
+        self.integrate(config, step);
+        for (body, load) in self.bodies.iter_mut().zip(&self.step_loads) {
+            body.push(load.force() * step.dt);
+        }
+        self.substep += 1;
+    }
+
+    fn interacts(&self, mode: InteractionMode) -> bool {
+        match mode {
+            InteractionMode::Full => true,
+            InteractionMode::None => false,
+            InteractionMode::Mixed => self.substep.is_multiple_of(2),
+        }
+    }
+
+    fn emit(&mut self, config: &FluidConfig, dt: f64) {
+        let spacing = config.settings.spacing;
+        self.newborn.clear();
+        let room = config.settings.max_particles.saturating_sub(self.particles.len());
+        for (emitter, source) in self.emitters.iter_mut().zip(&config.world.sources) {
+            emitter.emit(source, spacing, self.time, dt, room, &mut self.newborn);
+        }
+        if !self.newborn.is_empty() {
+            self.particles.extend(&self.newborn);
+        }
+    }
+
+    /// Drops what has left, aged or broken, and sorts the rest.
+    fn sort(&mut self, config: &FluidConfig) {
+        let p = &self.particles;
+        let lifetime = config.settings.lifetime as f32;
+        self.dead.clear();
+        for i in 0..p.len() {
+            let position = p.position(i);
+            let broken = !(position.is_finite() && p.velocity(i).is_finite());
+            self.degraded |= broken;
+            let at = position.as_dvec3();
+            let gone = !config.world.bounds.contains(at) || config.world.sinks.iter().any(|s| s.contains(at));
+            self.dead.push(broken || gone || (lifetime > 0.0 && p.age[i] > lifetime));
+        }
+        self.grid.sort(&mut self.particles, config.settings.support_length() as f32, &self.dead);
+    }
+
+    fn forces(&mut self, arch: pulp::Arch, dt: f64) {
+        let solids =
+            Solids { walls: &self.walls, bodies: &self.now, plane: &self.plane, tables: &self.tables };
+        let dt = dt as f32;
+        macro_rules! pass {
+            () => {
+                Pass { arch, particles: &self.particles, grid: &self.grid, solids }
+            };
+        }
+        match self.method {
+            Method::Muller(m) => {
+                m.densities(pass!(), &mut self.rows);
+                m.take_densities(&mut self.particles, &self.rows, self.forgive, dt);
+                m.accelerations(pass!(), &mut self.rows);
+            }
+            Method::Wcsph(w) => {
+                if self.substep.is_multiple_of(PACKING_INTERVAL) {
+                    w.packing(pass!(), &mut self.rows);
+                    w.take_packing(&mut self.particles, &self.rows);
+                }
+                w.rates(pass!(), &mut self.rows);
+                w.take_rates(&mut self.particles, &self.rows, dt);
+                w.accelerations(pass!(), &mut self.rows, &mut self.partial, &mut self.step_loads);
+            }
+        }
+        self.forgive = false;
+    }
+
+    fn integrate(&mut self, config: &FluidConfig, step: &Step) {
+        let s = &config.settings;
+        let dt = step.dt as f32;
+        let gravity = s.gravity.as_vec3();
+        let decay = (-s.damping * step.dt).exp() as f32;
+        let solids =
+            Solids { walls: &self.walls, bodies: &self.now, plane: &self.plane, tables: &self.tables };
+        let mass = s.particle_mass() as f32;
+        let mut fastest = 0.0_f32;
+        for i in 0..self.particles.len() {
+            let p = &mut self.particles;
+            p.age[i] += dt;
+            let (position, mut velocity) = (p.position(i), p.velocity(i));
+            if p.held[i] > 0.0 {
+                p.held[i] -= dt;
+            } else {
+                let [x, y, z, _] = self.rows[i];
+                velocity = (velocity + (Vec3::new(x, y, z) + gravity) * dt) * decay;
+            }
+            let speed = velocity.length();
+            if speed > step.cap {
+                velocity *= step.cap / speed;
+                self.degraded |= speed > step.guard;
+            }
+            let mut state = (position + velocity * dt, velocity);
+            solids.visit(state.0, step.contact.distance, |m| {
+                p.held[i] = 0.0;
+                let impulse = stop(&mut state, &m, step.contact, mass);
+                if let (true, Some(body)) = (s.two_way, m.body) {
+                    self.step_loads[body].react(impulse / dt, Vec3::ZERO, m.contact.arm);
+                }
+            });
+            p.set_position(i, state.0);
+            p.set_velocity(i, state.1);
+            fastest = fastest.max(state.1.length());
+        }
+        self.max_speed = if fastest.is_finite() { fastest } else { step.cap };
+    }
+
+    fn snapshot(&self, config: &FluidConfig, view: &mut ParticleView) {
+        let p = &self.particles;
+        let n = p.len();
+        let density = config.settings.rest_density as f32;
+        view.positions.clear();
+        view.positions.extend((0..n).map(|i| p.position(i).to_array()));
+        view.velocities.clear();
+        view.velocities.extend((0..n).map(|i| p.velocity(i).to_array()));
+        view.ids.clear();
+        view.ids.extend_from_slice(&p.id[..n]);
+        view.pressures.clear();
+        let scale = if matches!(self.method, Method::Wcsph(_)) { density } else { 1.0 };
+        view.pressures.extend(p.p[..n].iter().map(|&p| p * scale));
+    }
+}
+
+impl Method {
+    fn new(config: &FluidConfig) -> Self {
+        match config.settings.solver {
+            Solver::Muller => Self::Muller(Muller::new(config)),
+            Solver::Wcsph => Self::Wcsph(Wcsph::new(config)),
+        }
+    }
+}
+
+/// Contact by impulse (thesis: v_a = u_a + (j/m_a) n): takes the approach out of a particle's velocity but for
+/// the share that it keeps, and puts the particle back to the contact distance. Returns the impulse on the
+/// particle, N·s.
+fn stop(state: &mut (Vec3, Vec3), m: &Meeting, rule: ContactRule, mass: f32) -> Vec3 {
+    let n = m.contact.normal;
+    state.0 += (rule.distance - m.contact.distance) * n;
+    let approach = (state.1 - m.contact.velocity).dot(n);
+    if approach >= 0.0 {
+        return Vec3::ZERO;
+    }
+    let j = -(1.0 + rule.restitution) * approach / (1.0 / mass + m.inverse_mass);
+    state.1 += j / mass * n;
+    j * n
+}

@@ -1,0 +1,123 @@
+//! Smoothing kernels of support `h` (no influence beyond it), three-dimensional and normalised.
+//!
+//! `Muller` uses poly6, spiky and viscosity of Müller, Charypar & Gross 2003 (SCA 2003, "Particle-based fluid
+//! simulation for interactive applications"); `Wcsph` uses Wendland C2 (Wendland 1995,
+//! doi:10.1007/BF02123482; for SPH Dehnen & Aly 2012, doi:10.1111/j.1365-2966.2012.21439.x).
+//! These scalar forms are the reference; the pair loops hold the same polynomials in lanes.
+
+use std::f64::consts::PI;
+
+/// Poly6 value, 1/m³.
+pub fn poly6(r: f64, h: f64) -> f64 {
+    if r > h { 0.0 } else { 315.0 / (64.0 * PI * h.powi(9)) * (h * h - r * r).powi(3) }
+}
+
+/// Spiky derivative dW/dr, 1/m⁴ (never positive).
+pub fn spiky_slope(r: f64, h: f64) -> f64 {
+    if r > h { 0.0 } else { -45.0 / (PI * h.powi(6)) * (h - r).powi(2) }
+}
+
+/// Poly6 derivative over r, (dW/dr)/r, 1/m⁵ (never positive).
+pub fn poly6_slope_over_r(r: f64, h: f64) -> f64 {
+    if r > h { 0.0 } else { -945.0 / (32.0 * PI * h.powi(9)) * (h * h - r * r).powi(2) }
+}
+
+/// Poly6 Laplacian, 1/m⁵.
+pub fn poly6_laplacian(r: f64, h: f64) -> f64 {
+    let (h2, r2) = (h * h, r * r);
+    if r > h { 0.0 } else { -945.0 / (32.0 * PI * h.powi(9)) * (h2 - r2) * (3.0 * h2 - 7.0 * r2) }
+}
+
+/// Laplacian of the viscosity kernel, 1/m⁵ (never negative).
+pub fn viscosity_laplacian(r: f64, h: f64) -> f64 {
+    if r > h { 0.0 } else { 45.0 / (PI * h.powi(6)) * (h - r) }
+}
+
+/// Wendland C2 value, 1/m³.
+pub fn wendland(r: f64, h: f64) -> f64 {
+    let q = r / h;
+    if q > 1.0 { 0.0 } else { 21.0 / (2.0 * PI * h.powi(3)) * (1.0 - q).powi(4) * (1.0 + 4.0 * q) }
+}
+
+/// Wendland C2 derivative over r, (dW/dr)/r, 1/m⁵: a polynomial without division.
+pub fn wendland_slope_over_r(r: f64, h: f64) -> f64 {
+    let q = r / h;
+    if q > 1.0 { 0.0 } else { -wendland_gradient_scale(h) * (1.0 - q).powi(3) }
+}
+
+/// The constant of [`wendland_slope_over_r`], 1/m⁵.
+pub fn wendland_gradient_scale(h: f64) -> f64 {
+    20.0 * 21.0 / (2.0 * PI * h.powi(5))
+}
+
+/// First moment of the Wendland gradient over a cubic lattice of spacing `dx`: 1 in the continuum.
+/// Volumes divided by it make the discrete gradient exact for linear fields on the lattice.
+pub fn wendland_lattice_moment(dx: f64, h: f64) -> f64 {
+    lattice_sum(dx, h, |r, x| -wendland_slope_over_r(r, h) * x * x)
+}
+
+/// Sum of the Wendland kernel over a cubic lattice of spacing `dx`: 1 in the continuum.
+pub fn wendland_lattice_sum(dx: f64, h: f64) -> f64 {
+    lattice_sum(dx, h, |r, _| wendland(r, h))
+}
+
+fn lattice_sum(dx: f64, h: f64, term: impl Fn(f64, f64) -> f64) -> f64 {
+    let reach = (h / dx).ceil() as i32;
+    let mut sum = 0.0;
+    for i in -reach..=reach {
+        for j in -reach..=reach {
+            for k in -reach..=reach {
+                let r = dx * f64::from(i * i + j * j + k * k).sqrt();
+                sum += dx.powi(3) * term(r, dx * f64::from(i));
+            }
+        }
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// ∫ f(r) 4πr² dr over the support, by the midpoint rule.
+    fn ball_integral(h: f64, f: impl Fn(f64) -> f64) -> f64 {
+        let n = 20_000;
+        let dr = h / f64::from(n);
+        (0..n).map(|k| (f64::from(k) + 0.5) * dr).map(|r| f(r) * 4.0 * PI * r * r * dr).sum()
+    }
+
+    #[test]
+    fn kernels_are_normalised() {
+        for h in [0.01, 0.3] {
+            assert!((ball_integral(h, |r| poly6(r, h)) - 1.0).abs() < 1e-6);
+            assert!((ball_integral(h, |r| wendland(r, h)) - 1.0).abs() < 1e-6);
+            // ∫ W = −∫ (r/3) W' for any kernel that vanishes at its edge.
+            assert!((ball_integral(h, |r| -r / 3.0 * spiky_slope(r, h)) - 1.0).abs() < 1e-6);
+            // A Laplacian that reproduces ∇²(r²) = 6 has second moment 6: the viscosity kernel's.
+            assert!((ball_integral(h, |r| r * r * viscosity_laplacian(r, h)) - 6.0).abs() < 1e-5);
+        }
+    }
+
+    #[test]
+    fn slopes_are_the_derivatives() {
+        let (h, e) = (0.2, 1e-6);
+        for k in 1..19 {
+            let r = 0.01 * f64::from(k);
+            let numeric = |w: fn(f64, f64) -> f64| (w(r + e, h) - w(r - e, h)) / (2.0 * e);
+            assert!((numeric(poly6) / r - poly6_slope_over_r(r, h)).abs() < 1e-3 * poly6(0.0, h) / h / h);
+            assert!((numeric(wendland) / r - wendland_slope_over_r(r, h)).abs() < 1e-3 * wendland(0.0, h) / h / h);
+            let second = (poly6(r + 1e-4, h) - 2.0 * poly6(r, h) + poly6(r - 1e-4, h)) / 1e-8;
+            let laplacian = second + 2.0 * poly6_slope_over_r(r, h);
+            assert!((laplacian - poly6_laplacian(r, h)).abs() < 1e-3 * poly6(0.0, h) / h / h);
+        }
+    }
+
+    #[test]
+    fn lattice_sums_approach_one() {
+        for ratio in [2.4, 2.7, 3.2] {
+            assert!((wendland_lattice_moment(0.01, 0.01 * ratio) - 1.0).abs() < 0.04);
+            assert!((wendland_lattice_sum(0.01, 0.01 * ratio) - 1.0).abs() < 0.04);
+        }
+        assert!((wendland_lattice_moment(0.01, 0.06) - 1.0).abs() < 1e-3);
+    }
+}

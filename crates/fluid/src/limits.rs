@@ -1,0 +1,63 @@
+//! How long a sub-step may be, so that no setting can make the fluid explode.
+
+use crate::{FluidConfig, FluidError, InteractionMode, Solver};
+
+/// What bounds the length of a sub-step, s; infinite where nothing does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepLimits {
+    /// Sound and flow (Courant–Friedrichs–Lewy).
+    pub cfl: f64,
+    /// Explicit viscosity.
+    pub viscous: f64,
+    /// Contacts: no particle crosses more than a third of a spacing.
+    pub contact: f64,
+}
+
+impl StepLimits {
+    /// The shortest of them, s.
+    pub fn shortest(&self) -> f64 {
+        self.cfl.min(self.viscous).min(self.contact)
+    }
+}
+
+/// Step limits of `config` while the fastest particle has `speed` (m/s).
+///
+/// `wcsph` is staggered and stable to c dt/dx = 1.5 at rest (measured); 0.8 leaves room for motion. `muller`
+/// has no damping of its own and gets half of that. Viscosity: the explicit operators' own spectral bounds
+/// with a margin (see the solver files). Contact: tunnelling.
+pub fn step_limits(config: &FluidConfig, speed: f64) -> StepLimits {
+    let s = &config.settings;
+    let (dx, h) = (s.spacing, s.support_length());
+    let contact = dx / 3.0 / speed.max(1e-9);
+    if s.mode == InteractionMode::None {
+        return StepLimits { cfl: f64::INFINITY, viscous: f64::INFINITY, contact };
+    }
+    let c = config.sound_speed() + speed;
+    let (courant, viscous, nu) = match s.solver {
+        Solver::Wcsph => {
+            let artificial = s.artificial_viscosity * config.sound_speed() * h / 20.0;
+            (0.8, 0.015, s.kinematic_viscosity() + artificial)
+        }
+        Solver::Muller => (0.4, 0.04, s.kinematic_viscosity()),
+    };
+    StepLimits { cfl: courant * dx / c, viscous: viscous * h * h / nu.max(1e-12), contact }
+}
+
+/// Sub-steps that a frame of `frame_s` seconds needs.
+pub(crate) fn substeps(config: &FluidConfig, frame_s: f64, speed: f64) -> usize {
+    let needed = (frame_s / step_limits(config, speed).shortest()).ceil();
+    (needed as usize).max(1)
+}
+
+/// Refuses settings that need more sub-steps a frame than are allowed, and says which setting is to blame.
+pub(crate) fn check_substeps(config: &FluidConfig) -> Result<(), FluidError> {
+    let frame = 1.0 / config.frame_hz;
+    let limits = step_limits(config, config.reference_speed());
+    let needed = substeps(config, frame, config.reference_speed());
+    let allowed = config.settings.max_substeps;
+    if needed <= allowed {
+        return Ok(());
+    }
+    let cause = if limits.viscous < limits.cfl { "fluid.viscosity" } else { "the speed of sound" };
+    Err(FluidError::TooStiff { cause, needed, allowed, frame_hz: config.frame_hz, spacing: config.settings.spacing })
+}

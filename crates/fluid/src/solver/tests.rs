@@ -1,0 +1,169 @@
+//! The fast passes against the scalar twin, on clouds with every kind of neighbourhood.
+
+use super::{Pass, Rows};
+use crate::body::BodyTables;
+use crate::grid::Grid;
+use crate::particles::{Newborn, Particles};
+use crate::solids::{Solids, Walls};
+use crate::solver::{muller::Muller, wcsph::Wcsph};
+use crate::twin::{MullerTwin, Twin, WcsphTwin};
+use crate::wall::WallTable;
+use crate::{Aabb, FluidConfig, FluidSettings, Solver, World, kernel};
+use glam::{DVec3, Vec3};
+
+fn config(solver: Solver) -> FluidConfig {
+    let world = World {
+        bounds: Aabb { min: DVec3::splat(-1.0), max: DVec3::splat(1.0) },
+        ground: None,
+        container: None,
+        sources: vec![],
+        sinks: vec![],
+        pools: vec![Aabb { min: DVec3::ZERO, max: DVec3::splat(0.1) }],
+        bodies: vec![],
+    };
+    let settings = FluidSettings { solver, viscosity: 0.3, surface_tension: 0.07, ..FluidSettings::default() };
+    FluidConfig { settings, world, frame_hz: 60.0, threads: 1 }
+}
+
+/// A dense lump with thin spray round it.
+fn cloud(spacing: f32) -> Particles {
+    let mut seed = 7_u32;
+    let mut random = || {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (seed >> 8) as f32 / (1 << 23) as f32 - 1.0
+    };
+    let mut born = Vec::new();
+    for k in 0..700 {
+        let lattice = Vec3::new((k % 8) as f32, (k / 8 % 8) as f32, (k / 64) as f32) * spacing;
+        let scatter = if k < 512 { 0.2 * spacing } else { 12.0 * spacing };
+        let position = lattice + Vec3::new(random(), random(), random()) * scatter;
+        let velocity = Vec3::new(random(), random(), random());
+        born.push(Newborn { position, velocity, pressure: random().abs() * 3.0, held: 0.0 });
+    }
+    let mut particles = Particles::new();
+    particles.extend(&born);
+    particles
+}
+
+fn twins(p: &Particles, density: impl Fn(usize) -> f64) -> Vec<Twin> {
+    let twin = |i: usize| Twin {
+        x: p.position(i).as_dvec3(),
+        v: p.velocity(i).as_dvec3(),
+        p: p.p[i].into(),
+        density: density(i),
+    };
+    (0..p.len()).map(twin).collect()
+}
+
+/// Sorted cloud and a pass over it on each kind of processor at hand.
+fn each_pass(config: &FluidConfig, check: impl Fn(&mut Particles, &Grid, &dyn Fn(&Particles, &Grid, &dyn Fn(Pass<'_>)))) {
+    let support = config.settings.support_length();
+    for arch in [pulp::Arch::Scalar, pulp::Arch::new()] {
+        let (mut particles, mut grid) = (cloud(config.settings.spacing as f32), Grid::default());
+        let n = particles.len();
+        grid.sort(&mut particles, support as f32, &vec![false; n]);
+        let (walls, plane) = (Walls::new(&config.world, config.settings.spacing), WallTable::plane(support));
+        let tables = BodyTables::default();
+        check(&mut particles, &grid, &|particles, grid, run| {
+            let solids = Solids { walls: &walls, bodies: &[], plane: &plane, tables: &tables };
+            run(Pass { arch, particles, grid, solids });
+        });
+    }
+}
+
+fn assert_close(got: DVec3, expected: DVec3, scale: f64, what: &str) {
+    assert!((got - expected).length() < 2e-4 * scale, "{what}: {got} instead of {expected} (scale {scale})");
+}
+
+fn vector(row: &[f32; 4]) -> DVec3 {
+    Vec3::new(row[0], row[1], row[2]).as_dvec3()
+}
+
+#[test]
+fn muller_passes_equal_the_twin() {
+    let config = config(Solver::Muller);
+    let s = &config.settings;
+    let h = s.support_length();
+    let twin = MullerTwin {
+        h,
+        mass: s.particle_mass(),
+        viscosity: s.viscosity,
+        tension: s.surface_tension,
+        inside: 0.5 / h,
+    };
+    let solver = Muller::new(&config);
+    each_pass(&config, |particles, grid, with_pass| {
+        let rows = std::cell::RefCell::new(Rows::new());
+        with_pass(particles, grid, &|pass| solver.densities(pass, &mut rows.borrow_mut()));
+        solver.take_densities(particles, &rows.borrow(), false, 1e-3);
+        let all = twins(particles, |i| 1.0 / f64::from(particles.aux[i]));
+        for i in 0..all.len() {
+            let expected = twin.density(&all, i);
+            assert!((f64::from(rows.borrow()[i][0]) / expected - 1.0).abs() < 1e-5);
+        }
+        with_pass(particles, grid, &|pass| solver.accelerations(pass, &mut rows.borrow_mut()));
+        let expected: Vec<_> = (0..all.len()).map(|i| twin.acceleration(&all, i)).collect();
+        let scale = expected.iter().map(|a| a.length()).fold(0.0, f64::max);
+        for (row, expected) in rows.borrow().iter().zip(expected) {
+            assert_close(vector(row), expected, scale, "acceleration");
+        }
+    });
+}
+
+#[test]
+fn wcsph_passes_equal_the_twin() {
+    let config = config(Solver::Wcsph);
+    let s = &config.settings;
+    let (dx, h, c) = (s.spacing, s.support_length(), config.sound_speed());
+    let twin = WcsphTwin {
+        h,
+        volume: dx.powi(3) / kernel::wendland_lattice_moment(dx, h),
+        viscosity: s.kinematic_viscosity() + s.artificial_viscosity * c * h / 20.0,
+        eta2: 0.0025 * h * h,
+        gravity: s.gravity,
+    };
+    let solver = Wcsph::new(&config);
+    each_pass(&config, |particles, grid, with_pass| {
+        particles.aux = particles.p.clone();
+        let rows = std::cell::RefCell::new(Rows::new());
+        let all = twins(particles, |_| 1000.0);
+        with_pass(particles, grid, &|pass| solver.rates(pass, &mut rows.borrow_mut()));
+        let expected: Vec<_> = (0..all.len())
+            .map(|i| {
+                let diffusion = s.density_diffusion * 0.5 * h * c * twin.diffusion(&all, i);
+                DVec3::new(twin.divergence(&all, i), diffusion, 0.0)
+            })
+            .collect();
+        let scale = expected.iter().fold(DVec3::ZERO, |a, b| a.max(b.abs()));
+        for (row, expected) in rows.borrow().iter().zip(expected) {
+            assert!((f64::from(row[0]) - expected.x).abs() < 2e-4 * scale.x);
+            assert!((f64::from(row[1]) - expected.y).abs() < 2e-4 * scale.y);
+        }
+        let (mut partial, mut loads) = (vec![], vec![]);
+        with_pass(particles, grid, &|pass| {
+            solver.accelerations(pass, &mut rows.borrow_mut(), &mut partial.clone(), &mut loads.clone());
+        });
+        (partial.clear(), loads.clear());
+        let expected: Vec<_> = (0..all.len()).map(|i| twin.acceleration(&all, i)).collect();
+        let scale = expected.iter().map(|a| a.length()).fold(0.0, f64::max);
+        for (row, expected) in rows.borrow().iter().zip(expected) {
+            assert_close(vector(row), expected, scale, "acceleration");
+        }
+    });
+}
+
+#[test]
+fn pair_forces_sum_to_nothing() {
+    let config = config(Solver::Wcsph);
+    let solver = Wcsph::new(&config);
+    each_pass(&config, |particles, grid, with_pass| {
+        particles.aux = particles.p.clone();
+        let rows = std::cell::RefCell::new(Rows::new());
+        with_pass(particles, grid, &|pass| {
+            solver.accelerations(pass, &mut rows.borrow_mut(), &mut vec![], &mut []);
+        });
+        let sum: DVec3 = rows.borrow().iter().map(vector).sum();
+        let size: f64 = rows.borrow().iter().map(|r| vector(r).length()).sum();
+        assert!(sum.length() < 1e-5 * size, "{sum} of {size}");
+    });
+}

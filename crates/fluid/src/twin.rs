@@ -1,0 +1,111 @@
+//! The plain scalar twin: the solvers' sums in f64, O(N²), without grid, lanes, tables or threads.
+//!
+//! Slow and obvious on purpose: tests hold the fast passes against it.
+
+use crate::kernel;
+use glam::DVec3;
+
+/// One particle.
+#[derive(Clone, Copy, Debug)]
+pub struct Twin {
+    /// Position, m.
+    pub x: DVec3,
+    /// Velocity, m/s.
+    pub v: DVec3,
+    /// Pressure: Pa for `muller`, m²/s² for `wcsph`.
+    pub p: f64,
+    /// Density, kg/m³ (`muller`).
+    pub density: f64,
+}
+
+/// Constants of the `muller` sums.
+#[derive(Clone, Copy, Debug)]
+pub struct MullerTwin {
+    /// Support, m.
+    pub h: f64,
+    /// Particle mass, kg.
+    pub mass: f64,
+    /// Dynamic viscosity, Pa·s.
+    pub viscosity: f64,
+    /// Surface tension, N/m.
+    pub tension: f64,
+    /// |∇c| below which no tension acts, 1/m.
+    pub inside: f64,
+}
+
+impl MullerTwin {
+    /// Density at particle `i`, kg/m³.
+    pub fn density(&self, all: &[Twin], i: usize) -> f64 {
+        all.iter().map(|j| self.mass * kernel::poly6(j.x.distance(all[i].x), self.h)).sum()
+    }
+
+    /// Acceleration of particle `i` without gravity, m/s².
+    pub fn acceleration(&self, all: &[Twin], i: usize) -> DVec3 {
+        let a = all[i];
+        let (mut force, mut normal, mut curvature) = (DVec3::ZERO, DVec3::ZERO, 0.0);
+        for (k, b) in all.iter().enumerate() {
+            let (offset, r) = (a.x - b.x, a.x.distance(b.x));
+            let volume = self.mass / b.density;
+            if k != i && r > 0.0 {
+                force -= volume * (a.p + b.p) / 2.0 * kernel::spiky_slope(r, self.h) * offset / r;
+            }
+            force += self.viscosity * volume * (b.v - a.v) * kernel::viscosity_laplacian(r, self.h);
+            normal += volume * kernel::poly6_slope_over_r(r, self.h) * offset;
+            curvature += volume * kernel::poly6_laplacian(r, self.h);
+        }
+        if normal.length() > self.inside {
+            force -= self.tension * curvature * normal.normalize();
+        }
+        force / a.density
+    }
+}
+
+/// Constants of the `wcsph` sums.
+#[derive(Clone, Copy, Debug)]
+pub struct WcsphTwin {
+    /// Support, m.
+    pub h: f64,
+    /// Volume of a particle in the gradient sums, m³.
+    pub volume: f64,
+    /// Kinematic viscosity, m²/s.
+    pub viscosity: f64,
+    /// η² of the viscous term, m².
+    pub eta2: f64,
+    /// Gravity, m/s².
+    pub gravity: DVec3,
+}
+
+impl WcsphTwin {
+    /// Divergence of the velocity at particle `i`, 1/s.
+    pub fn divergence(&self, all: &[Twin], i: usize) -> f64 {
+        let a = all[i];
+        all.iter().map(|b| self.volume * (b.v - a.v).dot(self.gradient(&a, b))).sum()
+    }
+
+    /// Σ 2V (P_j − P_i − g·(x_j−x_i)) (x_j−x_i)·∇W/r², the diffusion before its factor.
+    pub fn diffusion(&self, all: &[Twin], i: usize) -> f64 {
+        let a = all[i];
+        let term = |b: &Twin| {
+            let d = b.x - a.x;
+            let dp = b.p - a.p - self.gravity.dot(d);
+            -2.0 * self.volume * dp * kernel::wendland_slope_over_r(d.length(), self.h)
+        };
+        all.iter().map(term).sum()
+    }
+
+    /// Acceleration of particle `i` by the others, without gravity, m/s².
+    pub fn acceleration(&self, all: &[Twin], i: usize) -> DVec3 {
+        let a = all[i];
+        let term = |b: &Twin| {
+            let d = b.x - a.x;
+            let rate = 10.0 * self.viscosity * (b.v - a.v).dot(d) / (d.length_squared() + self.eta2);
+            self.volume * (rate - a.p - b.p) * self.gradient(&a, b)
+        };
+        all.iter().map(term).sum()
+    }
+
+    /// ∇_a W.
+    fn gradient(&self, a: &Twin, b: &Twin) -> DVec3 {
+        kernel::wendland_slope_over_r(a.x.distance(b.x), self.h) * (a.x - b.x)
+    }
+}
