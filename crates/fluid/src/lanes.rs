@@ -1,7 +1,6 @@
 //! Vector loops over ranges of columns, one body for every lane width (pulp picks it at run time).
 
 use pulp::Simd;
-use std::ops::Range;
 
 /// 16 ones, then 16 zeros: a window of it marks the live lanes of a partly filled vector.
 static LIVE: [f32; 32] = {
@@ -14,27 +13,32 @@ static LIVE: [f32; 32] = {
     live
 };
 
-/// Calls `body(values, live)` for each vector of `range` over the columns; `live` is 1 in lanes that belong to
-/// the range and 0 in those behind its end. Columns are padded, so whole vectors may be read.
+/// Runs the block for each vector of `range` over the columns, with one name a column for its lanes; `live` is
+/// 1 in lanes that belong to the range and 0 in those behind its end. Columns are padded, so whole vectors may
+/// be read. A macro and no function, because a plain closure is not inlined into the code for the processor at hand
+/// and the lanes then go through memory: sixty times slower, measured.
+macro_rules! for_lanes {
+    ($S:ident, $simd:expr, $range:expr, [$($name:ident: $column:expr),*], $live:ident, $body:block) => {{
+        let range = $range;
+        let lanes = $S::F32_LANES;
+        let (whole, rest) = (range.len() / lanes, range.len() % lanes);
+        let vectors = whole + usize::from(rest > 0);
+        let end = range.start + vectors * lanes;
+        $( let $name = &$S::as_simd_f32s(&$column[range.start..end]).0[..vectors]; )*
+        let ones = $simd.splat_f32s(1.0);
+        for k in 0..vectors {
+            let $live = if k < whole { ones } else { $crate::lanes::live($simd, rest) };
+            $( let $name = $name[k]; )*
+            $body
+        }
+    }};
+}
+pub(crate) use for_lanes;
+
+/// Ones in the first `count` lanes, zeros behind.
 #[inline(always)]
-pub(crate) fn for_lanes<S: Simd, const K: usize>(
-    simd: S,
-    columns: [&[f32]; K],
-    range: Range<usize>,
-    mut body: impl FnMut([S::f32s; K], S::f32s),
-) {
-    let lanes = S::F32_LANES;
-    let (whole, rest) = (range.len() / lanes, range.len() % lanes);
-    let end = range.start + (whole + usize::from(rest > 0)) * lanes;
-    let columns = columns.map(|c| S::as_simd_f32s(&c[range.start..end]).0);
-    let ones = simd.splat_f32s(1.0);
-    for k in 0..whole {
-        body(columns.map(|c| c[k]), ones);
-    }
-    if rest > 0 {
-        let live = S::as_simd_f32s(&LIVE[16 - rest..16 - rest + lanes]).0[0];
-        body(columns.map(|c| c[whole]), live);
-    }
+pub(crate) fn live<S: Simd>(_: S, count: usize) -> S::f32s {
+    S::as_simd_f32s(&LIVE[16 - count..16 - count + S::F32_LANES]).0[0]
 }
 
 /// a·b + c.
@@ -72,19 +76,22 @@ pub(crate) fn splat3<S: Simd>(simd: S, v: [f32; 3]) -> [S::f32s; 3] {
 /// Sum over lanes, by component.
 #[inline(always)]
 pub(crate) fn sum3<S: Simd>(simd: S, v: [S::f32s; 3]) -> [f32; 3] {
-    v.map(|lane| simd.reduce_sum_f32s(lane))
+    [simd.reduce_sum_f32s(v[0]), simd.reduce_sum_f32s(v[1]), simd.reduce_sum_f32s(v[2])]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::ops::Range;
 
     struct Sum<'a>(&'a [f32], Range<usize>);
     impl pulp::WithSimd for Sum<'_> {
         type Output = f32;
         fn with_simd<S: Simd>(self, simd: S) -> f32 {
             let mut sum = simd.splat_f32s(0.0);
-            for_lanes(simd, [self.0], self.1, |[a], live| sum = fma(simd, a, live, sum));
+            for_lanes!(S, simd, self.1.clone(), [a: self.0], live, {
+                sum = fma(simd, a, live, sum);
+            });
             simd.reduce_sum_f32s(sum)
         }
     }

@@ -101,8 +101,8 @@ impl pulp::WithSimd for Densities<'_> {
             let xi = splat3(simd, p.position(i).to_array());
             let mut sum = zero;
             for range in self.pass.grid.neighbours(i) {
-                for_lanes(simd, [&p.x, &p.y, &p.z], range, |position, live| {
-                    let d = difference(simd, xi, position);
+                for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z], live, {
+                    let d = difference(simd, xi, [x, y, z]);
                     let t = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(h2, dot(simd, d, d)), zero), live);
                     sum = fma(simd, simd.mul_f32s(t, t), t, sum);
                 });
@@ -148,8 +148,7 @@ fn pair_force<S: Simd>(simd: S, s: &Muller, pass: &Pass<'_>, i: usize) -> [f32; 
         (simd.splat_f32s(-0.5), simd.splat_f32s(s.viscosity), simd.splat_f32s(1e-6 * s.support));
     let mut sum = [zero; 3];
     for range in pass.grid.neighbours(i) {
-        let columns = [&p.x[..], &p.y, &p.z, &p.u, &p.v, &p.w, &p.p, &p.aux];
-        for_lanes(simd, columns, range, |[x, y, z, u, v, w, pj, inverse_density], live| {
+        for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z, u: p.u, v: p.v, w: p.w, pj: p.p, inverse_density: p.aux], live, {
             let d = difference(simd, xi, [x, y, z]);
             let r = simd.sqrt_f32s(dot(simd, d, d));
             let t = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(h, r), zero), live);
@@ -171,7 +170,7 @@ fn surface_tension<S: Simd>(simd: S, s: &Muller, pass: &Pass<'_>, i: usize) -> V
     let (three, seven) = (simd.splat_f32s(3.0), simd.splat_f32s(-7.0));
     let (mut normal, mut laplacian) = ([zero; 3], zero);
     for range in pass.grid.neighbours(i) {
-        for_lanes(simd, [&p.x, &p.y, &p.z, &p.aux], range, |[x, y, z, inverse_density], live| {
+        for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z, inverse_density: p.aux], live, {
             let d = difference(simd, xi, [x, y, z]);
             let r2 = dot(simd, d, d);
             let t = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(h2, r2), zero), live);

@@ -181,7 +181,7 @@ fn pair_rates<S: Simd>(simd: S, s: &Wcsph, pass: &Pass<'_>, i: usize) -> [f32; 2
     let (ih, one, zero) = (simd.splat_f32s(s.inverse_support), simd.splat_f32s(1.0), simd.splat_f32s(0.0));
     let (mut divergence, mut diffusion) = (zero, zero);
     for range in pass.grid.neighbours(i) {
-        for_lanes(simd, [&p.x, &p.y, &p.z, &p.u, &p.v, &p.w, &p.p], range, |[x, y, z, u, v, w, pj], live| {
+        for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z, u: p.u, v: p.v, w: p.w, pj: p.p], live, {
             let d = difference(simd, xi, [x, y, z]);
             let q = simd.mul_f32s(simd.sqrt_f32s(dot(simd, d, d)), ih);
             let t = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(one, q), zero), live);
@@ -236,7 +236,7 @@ fn pair_acceleration<S: Simd>(simd: S, s: &Wcsph, pass: &Pass<'_>, i: usize) -> 
     let (nu, eta2) = (simd.splat_f32s(10.0 * s.viscosity), simd.splat_f32s(s.eta2));
     let mut sum = [zero; 3];
     for range in pass.grid.neighbours(i) {
-        for_lanes(simd, [&p.x, &p.y, &p.z, &p.u, &p.v, &p.w, &p.aux], range, |[x, y, z, u, v, w, pj], live| {
+        for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z, u: p.u, v: p.v, w: p.w, pj: p.aux], live, {
             let d = difference(simd, xi, [x, y, z]);
             let r2 = dot(simd, d, d);
             let q = simd.mul_f32s(simd.sqrt_f32s(r2), ih);
@@ -283,8 +283,8 @@ fn pair_packing<S: Simd>(simd: S, s: &Wcsph, pass: &Pass<'_>, i: usize) -> f32 {
     let four = simd.splat_f32s(4.0);
     let mut sum = zero;
     for range in pass.grid.neighbours(i) {
-        for_lanes(simd, [&p.x, &p.y, &p.z], range, |position, live| {
-            let d = difference(simd, xi, position);
+        for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z], live, {
+            let d = difference(simd, xi, [x, y, z]);
             let q = simd.mul_f32s(simd.sqrt_f32s(dot(simd, d, d)), ih);
             let t = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(one, q), zero), live);
             let t2 = simd.mul_f32s(t, t);
