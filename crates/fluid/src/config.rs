@@ -1,6 +1,6 @@
 //! What a fluid is made of: settings that may change while it runs, and the world it stands in.
 
-use crate::{FluidError, Shape, limits};
+use crate::{FluidError, Shape, limits, solver};
 use glam::DVec3;
 
 /// How the fluid is solved.
@@ -44,12 +44,16 @@ pub struct FluidSettings {
     pub surface_tension: f64,
     /// Stiffness k of `muller`, p = k(ρ − ρ₀), m²/s².
     pub stiffness: f64,
+    /// Share of `muller`'s pressure below zero that is kept, 0..1: 1 is the thesis's p = k(ρ − ρ₀) as written,
+    /// whose pull at a free surface tears a jet into hot clumps; 0 lets a free surface be free.
+    pub cohesion: f64,
     /// Speed of sound of `wcsph`, m/s; 0 takes ten times the highest speed that the scene's drops and sources
     /// can give.
     pub sound_speed: f64,
     /// Density diffusion δ of `wcsph`, dimensionless.
     pub density_diffusion: f64,
-    /// Artificial viscosity α of `wcsph`, dimensionless; its kinematic viscosity is α c H/20.
+    /// Artificial viscosity α, dimensionless: kinematic viscosity α c H/20 in `wcsph`, eight times that in
+    /// `muller`, which boils without it. See [`FluidConfig::effective_viscosity`].
     pub artificial_viscosity: f64,
     /// Acoustic damper ζ of `wcsph`, in units of c dx.
     pub acoustic_damping: f64,
@@ -82,6 +86,7 @@ impl Default for FluidSettings {
             viscosity: 0.001,
             surface_tension: 0.0,
             stiffness: 100.0,
+            cohesion: 0.0,
             sound_speed: 0.0,
             density_diffusion: 0.1,
             artificial_viscosity: 0.02,
@@ -253,6 +258,11 @@ impl FluidConfig {
         }
     }
 
+    /// Viscosity that acts between particles: the stated one and the solver's own, Pa·s.
+    pub fn effective_viscosity(&self) -> f64 {
+        self.settings.viscosity + self.settings.rest_density * solver::artificial_viscosity(self)
+    }
+
     /// Refuses what cannot be computed or cannot be stable, naming field, value and range.
     pub fn check(&self) -> Result<(), FluidError> {
         let s = &self.settings;
@@ -264,6 +274,7 @@ impl FluidConfig {
         range("fluid.viscosity", s.viscosity, 0.0, 1e4)?;
         range("fluid.surface_tension", s.surface_tension, 0.0, 10.0)?;
         range("fluid.stiffness", s.stiffness, 0.0, 1e5)?;
+        range("fluid.cohesion", s.cohesion, 0.0, 1.0)?;
         range("fluid.sound_speed", s.sound_speed, 0.0, 2000.0)?;
         range("fluid.density_diffusion", s.density_diffusion, 0.0, 0.3)?;
         range("fluid.artificial_viscosity", s.artificial_viscosity, 0.0, 1.0)?;

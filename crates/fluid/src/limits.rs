@@ -1,6 +1,6 @@
 //! How long a sub-step may be, so that no setting can make the fluid explode.
 
-use crate::{FluidConfig, FluidError, InteractionMode, Solver};
+use crate::{FluidConfig, FluidError, InteractionMode, Solver, solver};
 
 /// What bounds the length of a sub-step, s; infinite where nothing does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,13 +33,11 @@ pub fn step_limits(config: &FluidConfig, speed: f64) -> StepLimits {
         return StepLimits { cfl: f64::INFINITY, viscous: f64::INFINITY, contact };
     }
     let c = config.sound_speed() + speed;
-    let (courant, viscous, nu) = match s.solver {
-        Solver::Wcsph => {
-            let artificial = s.artificial_viscosity * config.sound_speed() * h / 20.0;
-            (0.8, 0.015, s.kinematic_viscosity() + artificial)
-        }
-        Solver::Muller => (0.4, 0.04, s.kinematic_viscosity()),
+    let (courant, viscous) = match s.solver {
+        Solver::Wcsph => (0.8, 0.015),
+        Solver::Muller => (0.4, 0.04),
     };
+    let nu = s.kinematic_viscosity() + solver::artificial_viscosity(config);
     StepLimits { cfl: courant * dx / c, viscous: viscous * h * h / nu.max(1e-12), contact }
 }
 

@@ -1,1 +1,41 @@
 //! Wait-free hand-overs, clocks and real-time threads of hapflow.
+//!
+//! What two threads pass each other goes through one of three things, none of which locks, waits or allocates
+//! after it was built:
+//!
+//! | need | here | writer | reader |
+//! |---|---|---|---|
+//! | the newest value, older ones do not matter | [`latest()`] | wait-free | wait-free |
+//! | every value in order, the oldest go on overflow | [`ring()`] | wait-free | lock-free |
+//! | bits that any thread raises | [`SharedFlags`] | wait-free | wait-free |
+//!
+//! Time comes from a [`Clock`]: [`RealClock`] for a hand, [`VirtualClock`] for tests and replays. Threads that
+//! must keep time come from [`spawn_realtime`], which goes on without the priority where the system refuses it,
+//! and says why.
+//!
+//! Thread classes, as each item states them: *main* may block and allocate; *servo* may do neither; *any* may be
+//! called by several threads at once.
+//!
+//! All atomics come from one private module, so that `RUSTFLAGS="--cfg loom" cargo test -p hapflow-realtime
+//! --release --test loom` tries every interleaving of small models with
+//! [loom](https://docs.rs/loom) in place of the real ones.
+
+mod clock;
+mod flags;
+mod latest;
+mod memory;
+mod os;
+mod priority;
+mod ring;
+mod status;
+mod sync;
+mod thread;
+
+pub use clock::{Clock, DEFAULT_SPIN_MARGIN, RealClock, VirtualClock};
+pub use flags::SharedFlags;
+pub use latest::{LatestReader, LatestWriter, latest, latest_with};
+pub use memory::{lock_memory, unlock_memory};
+pub use priority::{is_realtime, set_normal_priority, set_realtime_priority};
+pub use ring::{MAX_RING_CAPACITY, RingConsumer, RingProducer, ring};
+pub use status::{Grant, RealtimeStatus, Refusal};
+pub use thread::{RealtimeThread, spawn_realtime};

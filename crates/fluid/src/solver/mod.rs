@@ -11,7 +11,16 @@ use crate::body::BodyLoad;
 use crate::grid::Grid;
 use crate::particles::Particles;
 use crate::solids::Solids;
+use crate::{FluidConfig, Solver};
 use rayon::prelude::*;
+
+/// Kinematic viscosity that the solver of `config` adds to the stated one, m²/s.
+pub(crate) fn artificial_viscosity(config: &FluidConfig) -> f64 {
+    match config.settings.solver {
+        Solver::Muller => muller::artificial_viscosity(config),
+        Solver::Wcsph => wcsph::artificial_viscosity(config),
+    }
+}
 
 /// Particles a chunk.
 pub(crate) const CHUNK: usize = 64;

@@ -87,7 +87,7 @@ fn muller_passes_equal_the_twin() {
     let twin = MullerTwin {
         h,
         mass: s.particle_mass(),
-        viscosity: s.viscosity,
+        viscosity: config.effective_viscosity(),
         tension: s.surface_tension,
         inside: 0.5 / h,
     };
@@ -118,7 +118,7 @@ fn wcsph_passes_equal_the_twin() {
     let twin = WcsphTwin {
         h,
         volume: dx.powi(3) / kernel::wendland_lattice_moment(dx, h),
-        viscosity: s.kinematic_viscosity() + s.artificial_viscosity * c * h / 20.0,
+        viscosity: config.effective_viscosity() / s.rest_density,
         eta2: 0.0025 * h * h,
         gravity: s.gravity,
     };

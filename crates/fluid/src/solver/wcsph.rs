@@ -32,6 +32,12 @@ const PACKING_CLIP: f32 = 0.02;
 /// Below this share of full neighbourhood a particle lies at a free surface and packing leaves it alone.
 const FREE_SURFACE: f32 = 0.95;
 
+/// Kinematic viscosity that the solver adds to the stated one between particles, m²/s: α c H/20 (Monaghan 2005).
+pub(crate) fn artificial_viscosity(config: &FluidConfig) -> f64 {
+    let s = &config.settings;
+    s.artificial_viscosity * config.sound_speed() * s.support_length() / 20.0
+}
+
 /// Constants of one configuration.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wcsph {
@@ -57,7 +63,7 @@ impl Wcsph {
         let s = &config.settings;
         let (dx, h, c) = (s.spacing, s.support_length(), config.sound_speed());
         let volume = dx.powi(3) / kernel::wendland_lattice_moment(dx, h);
-        let artificial = s.artificial_viscosity * c * h / 20.0;
+        let artificial = artificial_viscosity(config);
         Self {
             support: h as f32,
             inverse_support: (1.0 / h) as f32,

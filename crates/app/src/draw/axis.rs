@@ -1,0 +1,84 @@
+//! A scale along one side of a chart.
+
+/// Range of values along a side, and where its ticks are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Axis {
+    pub low: f64,
+    pub high: f64,
+    /// Distance between ticks.
+    pub step: f64,
+}
+
+impl Axis {
+    /// A scale that holds `values`, with `room` of their range free at either end, and about `count` ticks.
+    pub fn holding(values: impl Iterator<Item = f64>, room: f64, count: f64) -> Self {
+        let grow = |(low, high): (f64, f64), v: f64| (low.min(v), high.max(v));
+        let (mut low, mut high) = values.filter(|v| v.is_finite()).fold((f64::MAX, f64::MIN), grow);
+        if low > high {
+            (low, high) = (0.0, 1.0);
+        }
+        let least = (1e-6 * low.abs().max(high.abs())).max(1e-9);
+        if high - low < least {
+            let half = (0.1 * low.abs()).max(0.5);
+            (low, high) = (low - half, high + half);
+        }
+        let pad = room * (high - low);
+        (low, high) = (low - pad, high + pad);
+        Self { low, high, step: step((high - low) / count.max(1.0)) }
+    }
+
+    /// Where `value` lies, 0 at the low end and 1 at the high end.
+    pub fn share(&self, value: f64) -> f64 {
+        (value - self.low) / (self.high - self.low)
+    }
+
+    /// Values of the ticks.
+    pub fn ticks(&self) -> Vec<f64> {
+        let first = (self.low / self.step - 1e-9).ceil();
+        let count = ((self.high / self.step + 1e-9).floor() - first).clamp(-1.0, 200.0) as i64;
+        (0..=count).map(|i| (first + i as f64) * self.step).collect()
+    }
+
+    /// How the tick at `value` is written.
+    pub fn text(&self, value: f64) -> String {
+        let places = (-self.step.log10() - 1e-9).ceil().clamp(0.0, 9.0) as usize;
+        let text = format!("{:.*}", places, if value.abs() < 1e-6 * self.step { 0.0 } else { value });
+        text.replace('-', "\u{2212}")
+    }
+}
+
+/// The round number 1, 2 or 5 times a power of ten next above `least`.
+fn step(least: f64) -> f64 {
+    let decade = 10.0_f64.powf(least.log10().floor());
+    let share = least / decade;
+    decade
+        * if share > 5.0 {
+            10.0
+        } else if share > 2.0 {
+            5.0
+        } else if share > 1.0 {
+            2.0
+        } else {
+            1.0
+        }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_inside() {
+        let axis = Axis::holding([-0.31, 1.27].into_iter(), 0.05, 6.0);
+        let texts: Vec<String> = axis.ticks().into_iter().map(|v| axis.text(v)).collect();
+        assert_eq!(texts, ["0.0", "0.5", "1.0"]);
+    }
+
+    #[test]
+    fn nothing_and_a_constant_have_a_range() {
+        for values in [vec![], vec![f64::NAN], vec![3.0, 3.0], vec![0.0]] {
+            let axis = Axis::holding(values.into_iter(), 0.05, 6.0);
+            assert!(axis.high > axis.low && axis.step > 0.0 && axis.ticks().len() > 1);
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! Small models of the hand-overs in every order that the memory model allows. Run with
+//! `RUSTFLAGS="--cfg loom" cargo test -p hapflow-realtime --release --test loom`.
+#![cfg(loom)]
+
+use hapflow_realtime::{
+    LatestReader, LatestWriter, RingConsumer, RingProducer, SharedFlags, latest_with, ring,
+};
+use loom::{cell::UnsafeCell, thread};
+
+/// A value whose every access loom watches, even through a reference that a hand-over lent out.
+struct Watched(UnsafeCell<u64>);
+
+impl Watched {
+    fn new() -> Self {
+        Self(UnsafeCell::new(0))
+    }
+
+    fn get(&self) -> u64 {
+        // SAFETY: what the model is to prove; loom reports an access at the same time as another.
+        self.0.with(|value| unsafe { *value })
+    }
+
+    fn set(&mut self, value: u64) {
+        // SAFETY: as above.
+        self.0.with_mut(|old| unsafe { *old = value });
+    }
+}
+
+fn fill(writer: &mut LatestWriter<Watched>, value: u64) {
+    writer.buffer().set(value);
+    writer.publish();
+}
+
+/// Updates once; news must be newer, no news the same.
+fn look(reader: &mut LatestReader<Watched>, last: &mut u64) {
+    let news = reader.update();
+    let newest = reader.get().get();
+    assert_eq!(newest > *last, news);
+    assert!(newest >= *last);
+    *last = newest;
+}
+
+#[test]
+fn latest_is_whole_ordered_and_ends_with_the_newest() {
+    loom::model(|| {
+        let (mut writer, mut reader) = latest_with(Watched::new);
+        let writing = thread::spawn(move || (1..=5).for_each(|value| fill(&mut writer, value)));
+        let mut last = 0;
+        (0..4).for_each(|_| look(&mut reader, &mut last));
+        writing.join().unwrap();
+        look(&mut reader, &mut last);
+        assert_eq!(last, 5);
+        assert!(!reader.update());
+    });
+}
+
+#[test]
+fn latest_hands_values_back_to_be_dropped_by_the_writer() {
+    loom::model(|| {
+        let (mut writer, mut reader) = latest_with(|| Box::new(0));
+        let reading = thread::spawn(move || {
+            reader.update();
+            let seen = **reader.get();
+            reader.update();
+            assert!(**reader.get() >= seen);
+            reader
+        });
+        (1..=3).for_each(|value| writer.write(Box::new(value)));
+        let mut reader = reading.join().unwrap();
+        reader.update();
+        assert_eq!(**reader.get(), 3);
+    });
+}
+
+/// What the consumer has seen: in order, none twice, and each sample either read or counted as lost.
+#[derive(Default)]
+struct Tally {
+    last: u64,
+    read: u64,
+    lost: u64,
+}
+
+impl Tally {
+    fn pop(&mut self, consumer: &mut RingConsumer<[u64; 2]>) -> bool {
+        let popped = consumer.pop();
+        self.lost += consumer.lost();
+        if let Some([value, twin]) = popped {
+            assert_eq!(twin, !value, "torn");
+            self.read += 1;
+            self.last = value;
+            assert_eq!(self.read + self.lost, value, "in order, none twice, the gaps counted");
+        }
+        popped.is_some()
+    }
+}
+
+fn push_all(producer: &mut RingProducer<[u64; 2]>, count: u64) -> u64 {
+    (1..=count).map(|value| u64::from(producer.push([value, !value]))).sum()
+}
+
+#[allow(clippy::unwrap_used, reason = "a helper of tests")]
+fn ring_model(capacity: usize, pushes: u64, pops: usize) {
+    loom::model(move || {
+        let (mut producer, mut consumer) = ring(capacity);
+        let producing = thread::spawn(move || push_all(&mut producer, pushes));
+        let mut tally = Tally::default();
+        for _ in 0..pops {
+            tally.pop(&mut consumer);
+        }
+        let overwrote = producing.join().unwrap();
+        while tally.pop(&mut consumer) {}
+        assert_eq!(tally.last, pushes, "the newest is never lost");
+        assert_eq!(tally.read + tally.lost, pushes);
+        assert_eq!(tally.lost, overwrote, "both sides count the same");
+    });
+}
+
+#[test]
+fn ring_of_one_overflows() {
+    ring_model(1, 5, 4);
+}
+
+#[test]
+fn ring_of_two_overflows() {
+    ring_model(2, 6, 4);
+}
+
+#[test]
+fn ring_of_three_does_not_overflow() {
+    ring_model(3, 3, 4);
+}
+
+#[test]
+fn a_raised_flag_publishes_what_came_before() {
+    loom::model(|| {
+        let flags = SharedFlags::new();
+        let (mut writer, mut reader) = latest_with(Watched::new);
+        let raising = flags.clone();
+        let thread = thread::spawn(move || {
+            fill(&mut writer, 1);
+            raising.raise(1);
+        });
+        if flags.load() == 1 {
+            assert!(reader.update());
+        }
+        thread.join().unwrap();
+    });
+}
