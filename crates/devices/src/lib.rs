@@ -1,1 +1,38 @@
 //! Haptic devices of hapflow: null, replay and a simulated hand.
+//!
+//! | device | moves | feels |
+//! |---|---|---|
+//! | [`NullDevice`] | not at all | nothing |
+//! | [`Replay`] | along a recorded [`Motion`] | nothing |
+//! | [`SimulatedHand`] | as a hand that follows a [`TargetScript`] | the force: it is a mass on a spring and damper |
+//!
+//! All of them speak [`HapticDevice`]. SI units, f64, right-handed, y up. Reading and writing allocates
+//! nothing; building a device may.
+#![forbid(unsafe_code)]
+
+mod at_end;
+mod device;
+mod error;
+mod hand;
+mod hand_settings;
+mod info;
+mod mass;
+mod motion;
+mod motion_csv;
+mod null;
+mod path_point;
+mod replay;
+mod script;
+
+pub use at_end::AtEnd;
+pub use device::{HapticDevice, Pacing};
+pub use error::DeviceError;
+pub use hand::SimulatedHand;
+pub use hand_settings::{HandPreset, HandSettings};
+pub use info::{DeviceInfo, find, list};
+pub use motion::{Motion, MotionSample};
+pub use motion_csv::{MAX_SAMPLES, MotionError};
+pub use null::NullDevice;
+pub use path_point::PathPoint;
+pub use replay::Replay;
+pub use script::{ScriptError, Segment, TargetScript};

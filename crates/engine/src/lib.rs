@@ -1,1 +1,41 @@
-//! The session of hapflow: scenes, servo loop, fluid loop, reports.
+//! The session: a scene goes in, a fluid runs, a hand moves in it at 1 kHz, and the force that it feels comes
+//! out. The one meeting place of fluid, haptics, devices and threads.
+//!
+//! ```text
+//!  main ── settings ──► fluid ── local model ──► servo ──► report ──► main
+//!                         ▲                        │
+//!                         └────── tool path ───────┘
+//! ```
+//!
+//! [`Session::open`] makes a session of a [`Scene`] and gives its two halves: a [`ServoUnit`], ticked at about
+//! 1 kHz by whoever owns the hand, and a [`FluidUnit`], which steps one fluid frame at a time. Who drives each
+//! is chosen apart: the session's own threads, or the host. [`run`] drives both for a whole run, on a virtual
+//! clock (deterministic, as fast as it goes) or in real time.
+#![forbid(unsafe_code)]
+
+mod builtin;
+mod error;
+mod fluid_unit;
+mod recording;
+pub mod run;
+mod scene;
+mod scene_file;
+mod servo;
+mod session;
+pub mod settings;
+pub mod signal;
+mod threads;
+mod value;
+
+pub use builtin::{load, shipped};
+pub use error::SceneError;
+pub use fluid_unit::{FluidReport, FluidUnit};
+pub use recording::{Recording, Row};
+pub use scene::{
+    BackendKind, Change, DeviceKind, MappingSettings, RunSettings, Scene, ToolSettings, ToolShape,
+};
+pub use scene_file::parse;
+pub use servo::{ServoReport, ServoUnit};
+pub use session::{Control, Drive, Session, SessionOptions, open_device};
+pub use threads::{FluidPace, TickTimes};
+pub use value::Value;

@@ -1,8 +1,42 @@
 //! What a hand needs: tool state, wrench, filters, device mapping and the safety gate.
 //!
-//! Pure and thread-free: everything here is called from one servo tick. SI units, f64, right-handed, y up.
+//! Pure and thread-free: everything here is called from one servo tick, and nothing here allocates, locks or
+//! logs after it was built. SI units, f64, right-handed, y up.
+//!
+//! | need | here |
+//! |---|---|
+//! | smooth a force | [`Filter`], described by a [`FilterSpec`] |
+//! | velocity of a device that gives positions only | [`VelocityEstimator`] |
+//! | move a tool in a fluid and make a force of it | [`Coupling`], [`LocalModel`] |
+//! | device frame to scene frame and back, and a soft edge | [`Mapping`], [`Rim`] |
+//! | let a force out to a hand | [`SafetyGate`], the only maker of a [`GatedWrench`] |
 #![forbid(unsafe_code)]
 
+mod axes;
+mod coupling;
+mod fault;
+mod filter;
+mod gate;
+mod gate_settings;
+mod gated_wrench;
+mod mapping;
+mod range;
+mod rim;
 mod types;
+mod velocity;
 
+pub use axes::{Axes, AxesError};
+pub use coupling::{BodyState, Coupling, CouplingKind, Drive, LocalModel};
+pub use fault::FaultSet;
+pub use filter::{
+    DEFAULT_BUTTERWORTH_ORDER, DEFAULT_SERVO_RATE_HZ, Filter, FilterError, FilterSpec, MAX_BUTTERWORTH_ORDER,
+    MAX_TAPS, TapPlace, WindowKind,
+};
+pub use gate::{MAX_TICK_S, ModelAge, SafetyGate};
+pub use gate_settings::GateSettings;
+pub use gated_wrench::GatedWrench;
+pub use mapping::Mapping;
+pub use range::{RangeError, check_range};
+pub use rim::{Rim, Workspace, WorkspaceError};
 pub use types::{ToolState, Wrench};
+pub use velocity::VelocityEstimator;

@@ -21,3 +21,9 @@ pub trait Clock: Send + Sync {
     /// Returns once [`now_ns`](Self::now_ns) is at least `t`; at once if it already is.
     fn wait_until_ns(&self, t: u64);
 }
+
+/// CPU time that all threads of the process have used, s; 0 where the system does not tell. Thread: any.
+#[must_use]
+pub fn process_cpu_s() -> f64 {
+    crate::os::process_cpu_s()
+}

@@ -31,7 +31,7 @@ mod status;
 mod sync;
 mod thread;
 
-pub use clock::{Clock, DEFAULT_SPIN_MARGIN, RealClock, VirtualClock};
+pub use clock::{Clock, DEFAULT_SPIN_MARGIN, RealClock, VirtualClock, process_cpu_s};
 pub use flags::SharedFlags;
 pub use latest::{LatestReader, LatestWriter, latest, latest_with};
 pub use memory::{lock_memory, unlock_memory};

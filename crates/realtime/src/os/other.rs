@@ -15,6 +15,11 @@ pub(crate) fn monotonic_ns() -> u64 {
     u64::try_from(START.get_or_init(Instant::now).elapsed().as_nanos()).unwrap_or(u64::MAX)
 }
 
+/// Not known here.
+pub(crate) fn process_cpu_s() -> f64 {
+    0.0
+}
+
 /// Sleeps until [`monotonic_ns`] is about `t`.
 pub(crate) fn sleep_until_ns(t: u64) {
     thread::sleep(Duration::from_nanos(t.saturating_sub(monotonic_ns())));

@@ -1,0 +1,52 @@
+//! The shipped scenes, and scenes by name or path.
+
+use crate::{Scene, SceneError, scene_file};
+use std::path::Path;
+
+const SHIPPED: &[(&str, &str)] = &[
+    ("tap", include_str!("../../../scenes/tap.toml")),
+    ("tap-intermittent", include_str!("../../../scenes/tap-intermittent.toml")),
+    ("waterfall", include_str!("../../../scenes/waterfall.toml")),
+    ("tank", include_str!("../../../scenes/tank.toml")),
+];
+
+/// Names and texts of the shipped scenes.
+pub fn shipped() -> &'static [(&'static str, &'static str)] {
+    SHIPPED
+}
+
+/// The scene of that name, or in the file of that path.
+///
+/// # Errors
+/// Neither, or something wrong in it.
+pub fn load(name: &str) -> Result<Scene, SceneError> {
+    if let Some((_, text)) = SHIPPED.iter().find(|(known, _)| *known == name) {
+        return scene_file::parse(text, name);
+    }
+    let text = std::fs::read_to_string(Path::new(name)).map_err(|cause| SceneError::NotFound {
+        name: name.into(),
+        shipped: SHIPPED.iter().map(|s| s.0).collect::<Vec<_>>().join(", "),
+        cause,
+    })?;
+    scene_file::parse(&text, name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_shipped_scene_is_sound_and_bears_its_name() {
+        for (name, _) in SHIPPED {
+            let scene = load(name).unwrap_or_else(|e| panic!("{e}"));
+            assert_eq!(scene.name, *name);
+            assert!(!scene.about.is_empty());
+        }
+    }
+
+    #[test]
+    fn an_unknown_scene_lists_the_known_ones() {
+        let text = load("tapp").unwrap_err().to_string();
+        assert!(text.contains("tapp") && text.contains("waterfall"), "{text}");
+    }
+}

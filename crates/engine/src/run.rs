@@ -1,0 +1,238 @@
+//! Whole runs: a scene, its device, and every tick recorded.
+
+use crate::{
+    Drive, FluidPace, FluidReport, Recording, Scene, SceneError, ServoReport, Session, SessionOptions, TickTimes,
+    open_device,
+};
+use hapflow_fluid::ParticleView;
+use hapflow_haptics::FaultSet;
+use hapflow_realtime::{Clock, RealClock, RealtimeStatus, process_cpu_s};
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// The servo's period, s.
+pub const TICK_S: f64 = 1e-3;
+
+/// Where a run stands.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress<'a> {
+    /// Simulated time, s.
+    pub time_s: f64,
+    /// Its end, s.
+    pub duration_s: f64,
+    /// The newest tick.
+    pub servo: &'a ServoReport,
+    /// The newest fluid frame.
+    pub fluid: &'a FluidReport,
+}
+
+/// How to run.
+pub struct RunOptions<'a> {
+    /// Worker threads of the fluid; 0 takes all cores but one.
+    pub threads: usize,
+    /// Times at which the particles are kept, s, in order.
+    pub pictures_at: &'a [f64],
+    /// Called now and then; `Break` ends the run early.
+    pub progress: &'a mut dyn FnMut(Progress<'_>) -> ControlFlow<()>,
+}
+
+impl std::fmt::Debug for RunOptions<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("RunOptions").field("threads", &self.threads).finish_non_exhaustive()
+    }
+}
+
+/// The particles at one time, and the tool with them.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Simulated time, s.
+    pub time_s: f64,
+    /// The particles.
+    pub particles: ParticleView,
+    /// The tick.
+    pub servo: ServoReport,
+}
+
+/// What a run took.
+#[derive(Clone, Debug, Default)]
+pub struct Timing {
+    /// Simulated time, s.
+    pub simulated_s: f64,
+    /// Wall time, s.
+    pub wall_s: f64,
+    /// CPU time of all threads, s.
+    pub cpu_s: f64,
+    /// The servo's ticks.
+    pub ticks: TickTimes,
+}
+
+/// What came of a run.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// Every tick.
+    pub recording: Recording,
+    /// The last fluid frame.
+    pub fluid: FluidReport,
+    /// Every fault and remark that any tick had.
+    pub faults: FaultSet,
+    /// Particles that were kept.
+    pub pictures: Vec<Picture>,
+    /// What it took.
+    pub timing: Timing,
+    /// In real time: what the system granted, and how the fluid kept up.
+    pub realtime: Option<(RealtimeStatus, FluidPace)>,
+}
+
+/// Progress is told once in so many ticks.
+const TELL_EVERY: u64 = 20;
+
+/// Runs `scene` on a virtual clock: as fast as it goes, and the same each time. A fluid frame's model is
+/// published one whole frame after its tool path ended, as a real machine would: no free look ahead.
+///
+/// # Errors
+/// What [`Session::open`] refuses.
+pub fn virtual_clock(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, SceneError> {
+    let session_options = SessionOptions { threads: options.threads, ..SessionOptions::hosted() };
+    let mut device = open_device(scene)?;
+    let mut session = Session::open(scene, session_options)?;
+    let (Some(mut servo), Some(mut fluid)) = (session.take_servo(), session.take_fluid()) else {
+        return Err(SceneError::Refused("the session's halves are taken".into()));
+    };
+    let mut run = Run::begin(scene);
+    let mut frames = 0_u64;
+    let mut pictures = options.pictures_at.iter().peekable();
+    let ticks = (scene.run.duration / TICK_S).round() as u64;
+    for n in 0..ticks {
+        let time_s = n as f64 * TICK_S;
+        while frame_end(frames + 1, scene) <= time_s + 1e-9 {
+            frames += 1;
+            let end = frame_end(frames, scene);
+            fluid.publish(end);
+            fluid.compute(end);
+        }
+        let state = device.read(time_s)?;
+        let before = Instant::now();
+        let wrench = servo.tick(&state, time_s, TICK_S);
+        run.outcome.timing.ticks.add(before.elapsed().as_nanos() as u64);
+        device.write(wrench, TICK_S)?;
+        run.record(servo.newest());
+        if pictures.next_if(|at| **at <= time_s).is_some() {
+            let mut particles = ParticleView::default();
+            fluid.snapshot(&mut particles);
+            run.outcome.pictures.push(Picture { time_s, particles, servo: *servo.newest() });
+        }
+        if n.is_multiple_of(TELL_EVERY) && run.tell(fluid.newest(), options.progress) {
+            break;
+        }
+    }
+    device.close();
+    Ok(run.end(*fluid.newest()))
+}
+
+/// When frame `k` ends, s.
+fn frame_end(k: u64, scene: &Scene) -> f64 {
+    k as f64 / scene.run.fluid_hz
+}
+
+/// Runs `scene` in real time: a servo thread at 1 kHz, a fluid thread, and main that records.
+///
+/// # Errors
+/// What [`Session::open`] refuses.
+pub fn real_time(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, SceneError> {
+    let clock = Arc::new(RealClock::new());
+    let session_options = SessionOptions {
+        servo_drive: Drive::Owned,
+        fluid_drive: Drive::Owned,
+        threads: options.threads,
+        device: Some(open_device(scene)?),
+        clock: Arc::clone(&clock) as Arc<dyn Clock>,
+        tape: 8192,
+    };
+    let mut session = Session::open(scene, session_options)?;
+    let Some(mut tape) = session.take_tape() else {
+        return Err(SceneError::Refused("the session has no tape".into()));
+    };
+    let mut run = Run::begin(scene);
+    let mut pictures = options.pictures_at.iter().peekable();
+    let mut answered = 0;
+    loop {
+        std::thread::sleep(Duration::from_millis(20));
+        while let Some(report) = tape.pop() {
+            run.record(&report);
+        }
+        let newest = session.report();
+        if pictures.next_if(|at| **at <= newest.time_s).is_some() {
+            session.request_particles();
+        }
+        answered = run.take_picture(&session, answered, newest);
+        let stop = run.tell(&session.fluid_report(), options.progress);
+        if stop || newest.time_s >= scene.run.duration || !session.servo_runs() {
+            break;
+        }
+    }
+    let fluid = session.fluid_report();
+    let status = session.realtime_status().unwrap_or_default();
+    let (ticks, pace) = session.close();
+    while let Some(report) = tape.pop() {
+        run.record(&report);
+    }
+    run.outcome.timing.ticks = ticks;
+    run.outcome.realtime = Some((status, pace));
+    Ok(run.end(fluid))
+}
+
+/// A run under way.
+struct Run {
+    outcome: Outcome,
+    duration_s: f64,
+    wall: Instant,
+    cpu_s: f64,
+}
+
+impl Run {
+    fn begin(scene: &Scene) -> Self {
+        Self {
+            outcome: Outcome {
+                recording: Recording::default(),
+                fluid: FluidReport::default(),
+                faults: FaultSet::NONE,
+                pictures: Vec::new(),
+                timing: Timing::default(),
+                realtime: None,
+            },
+            duration_s: scene.run.duration,
+            wall: Instant::now(),
+            cpu_s: process_cpu_s(),
+        }
+    }
+
+    fn record(&mut self, report: &ServoReport) {
+        self.outcome.faults |= report.faults;
+        self.outcome.recording.rows.push(*report);
+    }
+
+    fn take_picture(&mut self, session: &Session, answered: u64, servo: ServoReport) -> u64 {
+        let mut particles = ParticleView::default();
+        let now = session.particles(&mut particles);
+        if now > answered {
+            self.outcome.pictures.push(Picture { time_s: servo.time_s, particles, servo });
+        }
+        now
+    }
+
+    /// True when the run is to end.
+    fn tell(&self, fluid: &FluidReport, told: &mut dyn FnMut(Progress<'_>) -> ControlFlow<()>) -> bool {
+        let Some(servo) = self.outcome.recording.rows.last() else { return false };
+        told(Progress { time_s: servo.time_s, duration_s: self.duration_s, servo, fluid }).is_break()
+    }
+
+    fn end(mut self, fluid: FluidReport) -> Outcome {
+        let timing = &mut self.outcome.timing;
+        timing.simulated_s = self.outcome.recording.rows.last().map_or(0.0, |r| r.time_s + TICK_S);
+        timing.wall_s = self.wall.elapsed().as_secs_f64();
+        timing.cpu_s = process_cpu_s() - self.cpu_s;
+        self.outcome.fluid = fluid;
+        self.outcome
+    }
+}

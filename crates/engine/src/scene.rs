@@ -1,0 +1,271 @@
+//! A scene: everything that a session is made of, as plain data.
+
+use crate::{SceneError, Value, settings};
+use glam::DVec3;
+use hapflow_devices::{HandPreset, HandSettings, Segment};
+use hapflow_fluid::{Aabb, BodyConfig, FluidConfig, FluidSettings, OpenBox, Shape, Source, World};
+use hapflow_haptics::{CouplingKind, FilterSpec, GateSettings, Mapping, Rim, Workspace};
+
+/// Who computes the fluid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BackendKind {
+    /// Particles on the CPU.
+    Cpu,
+    /// Jets in closed form.
+    AnalyticJet,
+}
+
+/// Which device moves the tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DeviceKind {
+    /// A simulated hand on a simulated device, after the scene's script.
+    Hand,
+    /// A recorded motion.
+    Replay,
+    /// One that stays where it is.
+    Null,
+}
+
+/// How a scene is run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunSettings {
+    /// Simulated time, s.
+    pub duration: f64,
+    /// Fluid frames a second, Hz.
+    pub fluid_hz: f64,
+    /// How the tool meets the fluid.
+    pub coupling: CouplingKind,
+    /// What smooths the force; none takes the coupling's own.
+    pub filter: Option<FilterSpec>,
+    /// Who computes the fluid.
+    pub backend: BackendKind,
+    /// Which device moves the tool.
+    pub device: DeviceKind,
+    /// Motion of the replay device: a shipped name or a CSV file.
+    pub motion: String,
+}
+
+/// Shape of a tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ToolShape {
+    /// A ball.
+    Sphere,
+    /// A flat plate.
+    Disc,
+}
+
+/// The tool in the hand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ToolSettings {
+    /// Its shape.
+    pub shape: ToolShape,
+    /// Radius, m.
+    pub radius: f64,
+    /// Thickness of a disc, m.
+    pub thickness: f64,
+    /// Mass of its body in the fluid (coupling `momentum`), kg.
+    pub mass: f64,
+    /// Collision response coefficient C_R (coupling `momentum`), 0..1.
+    pub collision_response: f64,
+    /// Where it starts, m.
+    pub position: DVec3,
+    /// Factor on the fluid's force before filter and gate.
+    pub force_scale: f64,
+}
+
+/// From device to scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MappingSettings {
+    /// Scene metres a device metre.
+    pub scale: f64,
+    /// Scene axes in device axes, such as "x y z".
+    pub axes: String,
+    /// Device origin in the scene, m.
+    pub offset: DVec3,
+    /// Radius of the device's workspace, beyond which a soft rim pushes back, m; 0 has none.
+    pub rim_radius: f64,
+    /// Stiffness of the rim, N/m.
+    pub rim_stiffness: f64,
+}
+
+/// New values for some settings at a time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// Simulated time, s.
+    pub at_s: f64,
+    /// Paths and values.
+    pub settings: Vec<(String, Value)>,
+}
+
+/// Everything that a session is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Its name.
+    pub name: String,
+    /// One line on what it shows.
+    pub about: String,
+    /// How it is run.
+    pub run: RunSettings,
+    /// Settings of the fluid.
+    pub fluid: FluidSettings,
+    /// Particles that leave it vanish.
+    pub bounds: Aabb,
+    /// Height of the ground, if there is one, m.
+    pub ground: Option<f64>,
+    /// An open box.
+    pub container: Option<OpenBox>,
+    /// Jets.
+    pub sources: Vec<Source>,
+    /// Boxes in which particles vanish.
+    pub sinks: Vec<Aabb>,
+    /// Boxes filled with fluid at the start.
+    pub pools: Vec<Aabb>,
+    /// The tool.
+    pub tool: ToolSettings,
+    /// The safety gate.
+    pub gate: GateSettings,
+    /// From device to scene.
+    pub mapping: MappingSettings,
+    /// The simulated hand.
+    pub hand: HandSettings,
+    /// What it does, in scene coordinates.
+    pub script: Vec<Segment>,
+    /// What changes while it runs, in order of time.
+    pub changes: Vec<Change>,
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        Self {
+            name: "scene".into(),
+            about: String::new(),
+            run: RunSettings {
+                duration: 5.0,
+                fluid_hz: 100.0,
+                coupling: CouplingKind::Direct,
+                filter: None,
+                backend: BackendKind::Cpu,
+                device: DeviceKind::Hand,
+                motion: "tremor".into(),
+            },
+            fluid: FluidSettings::default(),
+            bounds: Aabb { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) },
+            ground: None,
+            container: None,
+            sources: Vec::new(),
+            sinks: Vec::new(),
+            pools: Vec::new(),
+            tool: ToolSettings {
+                shape: ToolShape::Sphere,
+                radius: 0.015,
+                thickness: 0.01,
+                mass: 0.1,
+                collision_response: 0.2,
+                position: DVec3::ZERO,
+                force_scale: 1.0,
+            },
+            gate: GateSettings::default(),
+            mapping: MappingSettings {
+                scale: 1.0,
+                axes: "x y z".into(),
+                offset: DVec3::ZERO,
+                rim_radius: 0.0,
+                rim_stiffness: Rim::DEFAULT_STIFFNESS_N_PER_M,
+            },
+            hand: HandSettings::preset(HandPreset::Normal),
+            script: Vec::new(),
+            changes: Vec::new(),
+        }
+    }
+}
+
+impl Scene {
+    /// What the fluid's backend needs to know.
+    pub fn fluid_config(&self, threads: usize) -> FluidConfig {
+        let tool = BodyConfig {
+            shape: self.tool.shape(),
+            mass: self.tool.mass,
+            collision_response: self.tool.collision_response,
+            position: self.tool.position,
+        };
+        FluidConfig {
+            settings: self.fluid.clone(),
+            world: World {
+                bounds: self.bounds,
+                ground: self.ground,
+                container: self.container,
+                sources: self.sources.clone(),
+                sinks: self.sinks.clone(),
+                pools: self.pools.clone(),
+                bodies: vec![tool],
+            },
+            frame_hz: self.run.fluid_hz,
+            threads,
+        }
+    }
+
+    /// The filter in use: the scene's, or the coupling's own. The thesis's baseline has its eleven fluid
+    /// frames; `direct` smooths each frame's step over one frame, which cancels the frame rate.
+    pub fn filter(&self) -> FilterSpec {
+        use hapflow_haptics::{TapPlace, WindowKind};
+        self.run.filter.unwrap_or(match self.run.coupling {
+            CouplingKind::Momentum => {
+                FilterSpec::Window { kind: WindowKind::BartlettHann, taps: 11, place: TapPlace::Fluid }
+            }
+            CouplingKind::Direct => {
+                let taps = (1000.0 / self.run.fluid_hz).round().max(1.0) as usize;
+                FilterSpec::Window { kind: WindowKind::Boxcar, taps, place: TapPlace::Servo }
+            }
+        })
+    }
+
+    /// The mapping in use.
+    pub(crate) fn mapping(&self) -> Result<Mapping, SceneError> {
+        let m = &self.mapping;
+        let refused = |e: &dyn std::fmt::Display| SceneError::Refused(format!("mapping: {e}"));
+        let axes = m.axes.parse().map_err(|e| refused(&e))?;
+        let mapping = Mapping::new(m.scale, axes, m.offset).map_err(|e| refused(&e))?;
+        if m.rim_radius <= 0.0 {
+            return Ok(mapping);
+        }
+        let workspace = Workspace::Sphere { centre: DVec3::ZERO, radius: m.rim_radius };
+        let rim = Rim::new(workspace, m.rim_stiffness, Rim::DEFAULT_SOFT_M).map_err(|e| refused(&e))?;
+        Ok(mapping.with_rim(rim))
+    }
+
+    /// Refuses what cannot be run.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its field, value and range.
+    pub fn check(&self) -> Result<(), SceneError> {
+        self.fluid_config(1).check()?;
+        self.gate.check()?;
+        self.hand.check()?;
+        self.filter().check(1000.0)?;
+        self.mapping()?;
+        for (k, change) in self.changes.iter().enumerate() {
+            self.check_change(k, change)?;
+        }
+        Ok(())
+    }
+
+    fn check_change(&self, k: usize, change: &Change) -> Result<(), SceneError> {
+        let mut after = Self { changes: Vec::new(), ..self.clone() };
+        for earlier in &self.changes[..=k] {
+            for (path, value) in &earlier.settings {
+                settings::set_live(&mut after, path, value)?;
+            }
+        }
+        after.check().map_err(|e| SceneError::Refused(format!("change at {} s: {e}", change.at_s)))
+    }
+}
+
+impl ToolSettings {
+    /// The shape, with its sizes.
+    pub fn shape(&self) -> Shape {
+        match self.shape {
+            ToolShape::Sphere => Shape::Sphere { radius: self.radius },
+            ToolShape::Disc => Shape::Disc { radius: self.radius, thickness: self.thickness },
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! One servo tick. Thread: servo, one at a time; no lock, no allocation, no log, no system call.
+
+use glam::DVec3;
+use hapflow_haptics::{
+    FaultSet, Filter, GateSettings, GatedWrench, LocalModel, Mapping, ModelAge, SafetyGate, ToolState, Wrench,
+};
+use hapflow_realtime::{LatestReader, LatestWriter, RingProducer, SharedFlags};
+
+/// A tool state with its time, as the fluid gets it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PathSample {
+    pub time_s: f64,
+    pub tool: ToolState,
+}
+
+/// Settings of the servo that may change while it runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ServoSettings {
+    pub gate: GateSettings,
+    pub force_scale: f64,
+}
+
+/// What came of the newest tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ServoReport {
+    /// Number of the tick, from 1.
+    pub tick: u64,
+    /// Its time, s.
+    pub time_s: f64,
+    /// The tool, scene frame.
+    pub tool: ToolState,
+    /// Where the tool's body is in the fluid, m.
+    pub body: DVec3,
+    /// What the coupling gave, scene frame.
+    pub raw: Wrench,
+    /// What the filter made of it, scene frame.
+    pub filtered: Wrench,
+    /// What left the gate, scene frame.
+    pub sent: Wrench,
+    /// What went wrong at this tick.
+    pub faults: FaultSet,
+    /// Number of the newest fluid frame.
+    pub frame: u64,
+    /// Age of its data, s.
+    pub age_s: f64,
+}
+
+/// The servo's half of a session.
+pub struct ServoUnit {
+    pub(crate) mapping: Mapping,
+    pub(crate) filter: Filter,
+    pub(crate) gate: SafetyGate,
+    pub(crate) force_scale: f64,
+    pub(crate) frame_s: f64,
+    pub(crate) path: RingProducer<PathSample>,
+    pub(crate) model: LatestReader<LocalModel>,
+    pub(crate) settings: LatestReader<ServoSettings>,
+    pub(crate) flags: SharedFlags,
+    pub(crate) clear: SharedFlags,
+    pub(crate) report: LatestWriter<ServoReport>,
+    pub(crate) tape: Option<RingProducer<ServoReport>>,
+    pub(crate) newest: ServoReport,
+    pub(crate) last_device: ToolState,
+}
+
+impl std::fmt::Debug for ServoUnit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ServoUnit").field("newest", &self.newest).finish_non_exhaustive()
+    }
+}
+
+impl ServoUnit {
+    /// One tick: the device is in `device` state (device frame) at `time_s`, `dt_s` after the last tick.
+    /// Returns the wrench for the device, always finite and limited, zero on any fault.
+    ///
+    /// A state that is not finite raises a fault that latches. `dt_s` that is not positive and finite changes no
+    /// force.
+    pub fn tick(&mut self, device: &ToolState, time_s: f64, dt_s: f64) -> GatedWrench {
+        self.take_settings();
+        let faults = self.take_input(device, time_s);
+        let tool = self.mapping.to_scene(self.last_device);
+        let lost = self.path.push(PathSample { time_s, tool });
+        let new_frame = self.model.update();
+        let model = *self.model.get();
+        let raw = model.evaluate(&tool) * self.force_scale;
+        let filtered = self.filter.step(raw, new_frame);
+        let wanted = self.mapping.to_device(filtered) + self.mapping.rim_force(&self.last_device);
+        let age = self.age(&model, time_s);
+        let faults = faults | FaultSet::PATH_OVERFLOW.when(lost);
+        let sent = self.gate.pass(wanted, &age, faults, dt_s);
+        self.newest = ServoReport {
+            tick: self.newest.tick + 1,
+            time_s,
+            tool,
+            body: model.body,
+            raw,
+            filtered,
+            sent: self.mapping.wrench_to_scene(sent.wrench()),
+            faults: self.gate.faults(),
+            frame: model.frame,
+            age_s: age.age_s,
+        };
+        self.report.write(self.newest);
+        if let Some(tape) = &mut self.tape {
+            tape.push(self.newest);
+        }
+        sent
+    }
+
+    /// The newest tick.
+    pub fn newest(&self) -> &ServoReport {
+        &self.newest
+    }
+
+    /// Raises a fault from outside the tick: a lost device, a panic.
+    pub fn raise(&self, fault: FaultSet) {
+        self.flags.raise(fault.bits());
+    }
+
+    fn take_settings(&mut self) {
+        if self.settings.update() {
+            let new = *self.settings.get();
+            self.force_scale = new.force_scale;
+            // They were checked on main; if not, the old ones stay.
+            let _ = self.gate.set_settings(new.gate);
+        }
+        if self.clear.load() != 0 {
+            self.clear.clear(u32::MAX);
+            self.gate.clear_faults();
+        }
+    }
+
+    /// Keeps the last sound state: what is not finite never reaches the fluid.
+    fn take_input(&mut self, device: &ToolState, time_s: f64) -> FaultSet {
+        let sound = device.is_finite() && time_s.is_finite();
+        if sound {
+            self.last_device = *device;
+        }
+        FaultSet::from_bits(self.flags.load()) | FaultSet::NON_FINITE_INPUT.when(!sound)
+    }
+
+    fn age(&self, model: &LocalModel, time_s: f64) -> ModelAge {
+        if model.frame == 0 {
+            return ModelAge::MISSING;
+        }
+        ModelAge { age_s: time_s - model.published_s, frame_s: self.frame_s }
+    }
+}

@@ -1,0 +1,379 @@
+//! Every setting in one table: path, unit, range, whether it may change while a session runs, and what it does.
+//!
+//! Scene files, `--set`, `[[change]]`, the C ABI and the README's table all read it. Settings of a source are
+//! addressed by its name: `source.tap.speed`.
+
+use crate::scene::{BackendKind, DeviceKind, Scene, ToolShape};
+use crate::{SceneError, Value};
+use hapflow_fluid::{InteractionMode, Solver, Source};
+use hapflow_haptics::{CouplingKind, FilterSpec};
+
+/// What a setting may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// A number in a range.
+    Number {
+        /// Smallest.
+        min: f64,
+        /// Largest.
+        max: f64,
+    },
+    /// A whole number in a range.
+    Integer {
+        /// Smallest.
+        min: f64,
+        /// Largest.
+        max: f64,
+    },
+    /// Yes or no.
+    Bool,
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// A text that its own parser checks.
+    Text,
+    /// Three numbers, each in a range.
+    Vector {
+        /// Smallest.
+        min: f64,
+        /// Largest.
+        max: f64,
+    },
+}
+
+/// One setting of a `T`.
+#[derive(Clone, Copy)]
+pub struct Setting<T> {
+    /// Path, or the last part of it for a source.
+    pub path: &'static str,
+    /// Unit; empty for none.
+    pub unit: &'static str,
+    /// What it may be.
+    pub kind: Kind,
+    /// Whether it may change while a session runs.
+    pub live: bool,
+    /// What it does.
+    pub about: &'static str,
+    get: fn(&T) -> Value,
+    set: fn(&mut T, &Value) -> Result<(), String>,
+}
+
+impl<T> std::fmt::Debug for Setting<T> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Setting").field("path", &self.path).field("kind", &self.kind).finish_non_exhaustive()
+    }
+}
+
+impl<T> Setting<T> {
+    /// Its value in `owner`.
+    pub fn get(&self, owner: &T) -> Value {
+        (self.get)(owner)
+    }
+
+    /// The range or the words, as an error or a table says it.
+    pub fn allowed(&self) -> String {
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        match self.kind {
+            Kind::Number { min, max } => format!("a number from {min} to {max}{unit}"),
+            Kind::Integer { min, max } => format!("a whole number from {min} to {max}{unit}"),
+            Kind::Bool => "true or false".into(),
+            Kind::Choice(words) => format!("one of {}", words.join(", ")),
+            Kind::Text => "a text in quotes".into(),
+            Kind::Vector { min, max } => format!("three numbers [x, y, z], each from {min} to {max}{unit}"),
+        }
+    }
+
+    pub(crate) fn put(&self, owner: &mut T, path: &str, value: &Value) -> Result<(), SceneError> {
+        let bad = |expected: String| SceneError::BadValue { path: path.into(), value: value.to_string(), expected };
+        if !self.fits(value) {
+            return Err(bad(self.allowed()));
+        }
+        (self.set)(owner, value).map_err(bad)
+    }
+
+    fn fits(&self, value: &Value) -> bool {
+        match (self.kind, value) {
+            (Kind::Number { min, max }, Value::Number(n)) => *n >= min && *n <= max,
+            (Kind::Integer { min, max }, Value::Number(n)) => *n >= min && *n <= max && n.fract() == 0.0,
+            (Kind::Bool, Value::Bool(_)) | (Kind::Text, Value::Text(_)) => true,
+            (Kind::Choice(words), Value::Text(t)) => words.contains(&t.as_str()),
+            (Kind::Vector { min, max }, Value::Vector(v)) => {
+                v.to_array().iter().all(|c| *c >= min && *c <= max)
+            }
+            _ => false,
+        }
+    }
+}
+
+macro_rules! number {
+    ($path:literal, $unit:literal, $min:literal..=$max:literal, $live:ident, $($field:ident).+, $about:literal) => {
+        Setting {
+            path: $path,
+            unit: $unit,
+            kind: Kind::Number { min: $min, max: $max },
+            live: $live,
+            about: $about,
+            get: |s| Value::Number(s.$($field).+),
+            set: |s, v| { s.$($field).+ = v.number(); Ok(()) },
+        }
+    };
+}
+
+macro_rules! integer {
+    ($path:literal, $min:literal..=$max:literal, $($field:ident).+, $about:literal) => {
+        Setting {
+            path: $path,
+            unit: "",
+            kind: Kind::Integer { min: $min, max: $max },
+            live: LIVE,
+            about: $about,
+            get: |s| Value::Number(s.$($field).+ as f64),
+            set: |s, v| { s.$($field).+ = v.number() as usize; Ok(()) },
+        }
+    };
+}
+
+macro_rules! flag {
+    ($path:literal, $($field:ident).+, $about:literal) => {
+        Setting {
+            path: $path,
+            unit: "",
+            kind: Kind::Bool,
+            live: LIVE,
+            about: $about,
+            get: |s| Value::Bool(s.$($field).+),
+            set: |s, v| { s.$($field).+ = v.bool(); Ok(()) },
+        }
+    };
+}
+
+macro_rules! vector {
+    ($path:literal, $unit:literal, $min:literal..=$max:literal, $live:ident, $($field:ident).+, $about:literal) => {
+        Setting {
+            path: $path,
+            unit: $unit,
+            kind: Kind::Vector { min: $min, max: $max },
+            live: $live,
+            about: $about,
+            get: |s| Value::Vector(s.$($field).+),
+            set: |s, v| { s.$($field).+ = v.vector(); Ok(()) },
+        }
+    };
+}
+
+/// A choice among the variants of an enum, in the order of its words.
+macro_rules! choice {
+    ($path:literal, $live:ident, $($field:ident).+, [$($word:literal => $variant:path),+], $about:literal) => {
+        Setting {
+            path: $path,
+            unit: "",
+            kind: Kind::Choice(&[$($word),+]),
+            live: $live,
+            about: $about,
+            get: |s| Value::Text(match s.$($field).+ { $($variant => $word),+ }.to_string()),
+            set: |s, v| {
+                s.$($field).+ = match v.text() { $($word => $variant,)+ other => return Err(other.to_string()) };
+                Ok(())
+            },
+        }
+    };
+}
+
+const LIVE: bool = true;
+const FIXED: bool = false;
+
+/// Settings of a scene.
+pub const SETTINGS: &[Setting<Scene>] = &[
+    number!("run.duration", "s", 0.01..=3600.0, FIXED, run.duration, "Simulated time of a run."),
+    number!("run.fluid_hz", "Hz", 10.0..=1000.0, FIXED, run.fluid_hz, "Fluid frames a second; each gives the servo one new model."),
+    choice!("run.coupling", FIXED, run.coupling, ["direct" => CouplingKind::Direct, "momentum" => CouplingKind::Momentum], "How tool and fluid meet: `direct` leads the tool along the device's path and renders the fluid's mean load; `momentum` is the thesis's baseline."),
+    Setting { path: "run.filter", unit: "", kind: Kind::Text, live: FIXED, about: "What smooths the force: none, bartlett-hann:11@fluid, boxcar:10@servo, butterworth:50@servo, one-euro:5:0.5@servo …; \"auto\" takes the coupling's own.", get: |s| Value::Text(s.run.filter.map_or("auto".into(), |f| f.to_string())), set: set_filter },
+    choice!("run.backend", FIXED, run.backend, ["cpu" => BackendKind::Cpu, "analytic-jet" => BackendKind::AnalyticJet], "Who computes the fluid: particles on the CPU, or jets in closed form."),
+    choice!("run.device", FIXED, run.device, ["hand" => DeviceKind::Hand, "replay" => DeviceKind::Replay, "null" => DeviceKind::Null], "What moves the tool: a simulated hand, a recorded motion, or nothing."),
+    Setting { path: "run.motion", unit: "", kind: Kind::Text, live: FIXED, about: "Motion of the replay device: a shipped name or a CSV file (time_s,x_m,y_m,z_m), relative to the tool's start.", get: |s| Value::Text(s.run.motion.clone()), set: |s, v| { s.run.motion = v.text().to_string(); Ok(()) } },
+    choice!("fluid.solver", LIVE, fluid.solver, ["wcsph" => Solver::Wcsph, "muller" => Solver::Muller], "`wcsph`: stiff, with density diffusion and analytic walls; `muller`: the thesis's."),
+    choice!("fluid.mode", LIVE, fluid.mode, ["full" => InteractionMode::Full, "none" => InteractionMode::None, "mixed" => InteractionMode::Mixed], "Which particles act on which: all; none (gravity and contacts only); or in every other sub-step."),
+    number!("fluid.spacing", "m", 1e-4..=1.0, LIVE, fluid.spacing, "Rest particle spacing; a particle has the mass rest_density × spacing³. A change resamples the fluid."),
+    Setting { path: "fluid.rest_particles", unit: "1/m³", kind: Kind::Number { min: 1.0, max: 1e12 }, live: LIVE, about: "Rest particles a cubic metre: the thesis's way to say the spacing, 1/spacing³.", get: |s| Value::Number(s.fluid.spacing.powi(-3)), set: |s, v| { s.fluid.spacing = v.number().powf(-1.0 / 3.0); Ok(()) } },
+    number!("fluid.support", "spacings", 0.0..=4.0, LIVE, fluid.support, "Influence radius of a particle; 0 takes the solver's own (wcsph 2.7, muller 2.0), else at least 1.2."),
+    number!("fluid.rest_density", "kg/m³", 1e-3..=1e5, LIVE, fluid.rest_density, "Density at rest."),
+    number!("fluid.viscosity", "Pa·s", 0.0..=1e4, LIVE, fluid.viscosity, "Dynamic viscosity: water 0.001, oil 0.1, glycerine 1.4, honey 10. The solver's artificial viscosity comes on top."),
+    number!("fluid.artificial_viscosity", "", 0.0..=1.0, LIVE, fluid.artificial_viscosity, "α: what the solver adds for stability, kinematic viscosity α c H/20 (muller: eight times that)."),
+    number!("fluid.surface_tension", "N/m", 0.0..=10.0, LIVE, fluid.surface_tension, "Surface tension of muller; water 0.072. At 0 it is not computed."),
+    number!("fluid.stiffness", "m²/s²", 0.0..=1e5, LIVE, fluid.stiffness, "k of muller's p = k(ρ − ρ₀): the higher, the less compressible and the finer the steps."),
+    number!("fluid.cohesion", "", 0.0..=1.0, LIVE, fluid.cohesion, "Share of muller's negative pressure that is kept: 1 as the thesis writes it, 0 for free surfaces that stay calm."),
+    number!("fluid.sound_speed", "m/s", 0.0..=2000.0, LIVE, fluid.sound_speed, "Speed of sound of wcsph; 0 takes ten times the highest speed that the scene can give."),
+    number!("fluid.density_diffusion", "", 0.0..=0.3, LIVE, fluid.density_diffusion, "δ of wcsph: smooths the pressure."),
+    number!("fluid.acoustic_damping", "c dx", 0.0..=1.0, LIVE, fluid.acoustic_damping, "ζ of wcsph: takes sound out."),
+    number!("fluid.damping", "1/s", 0.0..=1000.0, LIVE, fluid.damping, "Rate at which all velocities decay."),
+    number!("fluid.max_displacement", "m", 0.0..=10.0, LIVE, fluid.max_displacement, "Farthest that a particle may go in one fluid frame; 0 sets no cap."),
+    number!("fluid.lifetime", "s", 0.0..=1e6, LIVE, fluid.lifetime, "Age at which a particle vanishes; 0 keeps it."),
+    integer!("fluid.max_particles", 1.0..=5e6, fluid.max_particles, "Most particles at once; sources wait while it is reached."),
+    integer!("fluid.max_substeps", 1.0..=1e5, fluid.max_substeps, "Most sub-steps a frame; settings that need more are refused."),
+    vector!("fluid.gravity", "m/s²", -100.0..=100.0, LIVE, fluid.gravity, "Acceleration of gravity."),
+    number!("fluid.restitution", "", 0.0..=1.0, LIVE, fluid.restitution, "Share of the normal velocity that a particle keeps in a contact by impulse (muller, mode none)."),
+    flag!("fluid.two_way", fluid.two_way, "true: fluid and tool push each other; false: the tool pushes the fluid and feels nothing."),
+    choice!("tool.shape", FIXED, tool.shape, ["sphere" => ToolShape::Sphere, "disc" => ToolShape::Disc], "Shape of the tool; a disc lies flat, its axis up."),
+    number!("tool.radius", "m", 1e-3..=0.5, LIVE, tool.radius, "Radius of the tool."),
+    number!("tool.thickness", "m", 1e-3..=0.5, LIVE, tool.thickness, "Thickness of a disc."),
+    number!("tool.mass", "kg", 1e-3..=100.0, LIVE, tool.mass, "Mass of the tool's body in the fluid (coupling momentum)."),
+    number!("tool.collision_response", "", 0.0..=1.0, LIVE, tool.collision_response, "C_R: share of the fluid's impulse that the body takes (coupling momentum)."),
+    vector!("tool.position", "m", -10.0..=10.0, FIXED, tool.position, "Where the tool starts."),
+    number!("tool.force_scale", "", 0.0..=1000.0, LIVE, tool.force_scale, "Factor on the fluid's force before filter and gate."),
+    number!("gate.max_force", "N", 0.0..=50.0, LIVE, gate.max_force_n, "Largest force that leaves."),
+    number!("gate.max_torque", "N·m", 0.0..=5.0, LIVE, gate.max_torque_nm, "Largest torque that leaves."),
+    number!("gate.max_slew", "N/s", 1.0..=1e6, LIVE, gate.max_slew_n_per_s, "Fastest change of the force."),
+    number!("gate.max_torque_slew", "N·m/s", 0.01..=1e5, LIVE, gate.max_torque_slew_nm_per_s, "Fastest change of the torque."),
+    number!("gate.ramp_in", "s", 0.0..=10.0, LIVE, gate.ramp_in_s, "Time in which the force comes up at a start or after a fault."),
+    number!("gate.stale_hold", "frames", 1.0..=1000.0, LIVE, gate.stale_hold_frames, "Age of the fluid's data above which the force fades."),
+    number!("gate.stale_fade", "s", 0.0..=10.0, LIVE, gate.stale_fade_s, "Time in which it fades."),
+    number!("mapping.scale", "", 1e-3..=1000.0, FIXED, mapping.scale, "Scene metres a device metre; the hand feels every impedance that many times."),
+    Setting { path: "mapping.axes", unit: "", kind: Kind::Text, live: FIXED, about: "Scene axes in device axes, such as \"x y z\" or \"-z y x\"; right-handed.", get: |s| Value::Text(s.mapping.axes.clone()), set: |s, v| { s.mapping.axes = v.text().to_string(); Ok(()) } },
+    vector!("mapping.offset", "m", -10.0..=10.0, FIXED, mapping.offset, "Where the device's origin is in the scene."),
+    number!("mapping.rim_radius", "m", 0.0..=10.0, FIXED, mapping.rim_radius, "Radius of the device's workspace, behind which a soft rim pushes back; 0 has none."),
+    number!("mapping.rim_stiffness", "N/m", 0.0..=2000.0, FIXED, mapping.rim_stiffness, "Stiffness of the rim."),
+    number!("hand.device_mass", "kg", 1e-3..=100.0, FIXED, hand.device_mass_kg, "Mass of the simulated device."),
+    number!("hand.device_damping", "N·s/m", 0.0..=1000.0, FIXED, hand.device_damping_n_s_per_m, "Damping of the simulated device."),
+    number!("hand.mass", "kg", 0.0..=100.0, FIXED, hand.hand_mass_kg, "Mass of the simulated hand."),
+    number!("hand.damping", "N·s/m", 0.0..=1000.0, FIXED, hand.hand_damping_n_s_per_m, "Damping of its grip."),
+    number!("hand.stiffness", "N/m", 0.0..=1e5, FIXED, hand.hand_stiffness_n_per_m, "Stiffness of its grip."),
+    number!("hand.encoder_step", "m", 0.0..=0.01, FIXED, hand.encoder_step_m, "Step of the simulated device's encoders; 0 is exact."),
+    number!("hand.velocity_cutoff", "Hz", 1.0..=400.0, FIXED, hand.velocity_cutoff_hz, "Cutoff of its velocity estimate."),
+];
+
+/// Settings of a source, addressed as `source.NAME.…`.
+pub const SOURCE_SETTINGS: &[Setting<Source>] = &[
+    vector!("position", "m", -10.0..=10.0, LIVE, position, "Centre of the outlet."),
+    vector!("direction", "", -10.0..=10.0, LIVE, direction, "Direction of the jet."),
+    number!("diameter", "m", 0.0..=1.0, LIVE, diameter, "Diameter of the outlet: the thesis's source size."),
+    number!("speed", "m/s", 0.0..=20.0, LIVE, speed, "Speed at the outlet."),
+    flag!("on", on, "Whether it runs."),
+    number!("period", "s", 0.0..=1000.0, LIVE, period, "Period of an intermittent jet; 0 runs steadily."),
+    number!("duty", "", 0.0..=1.0, LIVE, duty, "Share of the period in which it runs."),
+];
+
+fn set_filter(scene: &mut Scene, value: &Value) -> Result<(), String> {
+    scene.run.filter = match value.text() {
+        "auto" => None,
+        spec => Some(spec.parse::<FilterSpec>().map_err(|e| format!("a filter: {e}"))?),
+    };
+    Ok(())
+}
+
+/// Sets `path` before a session starts.
+///
+/// # Errors
+/// An unknown path, or a value that does not fit.
+pub fn set(scene: &mut Scene, path: &str, value: &Value) -> Result<(), SceneError> {
+    put(scene, path, value, false)
+}
+
+/// Sets `path` as a running session may: only what is live.
+///
+/// # Errors
+/// An unknown path, one that is not live, or a value that does not fit.
+pub fn set_live(scene: &mut Scene, path: &str, value: &Value) -> Result<(), SceneError> {
+    put(scene, path, value, true)
+}
+
+fn put(scene: &mut Scene, path: &str, value: &Value, live: bool) -> Result<(), SceneError> {
+    if let Some((source, setting)) = find_source(scene, path) {
+        return setting.put(&mut scene.sources[source], path, value);
+    }
+    let setting = SETTINGS.iter().find(|s| s.path == path).ok_or_else(|| unknown(scene, path))?;
+    if live && !setting.live {
+        return Err(SceneError::NotLive(path.into()));
+    }
+    setting.put(scene, path, value)
+}
+
+/// The value at `path`.
+///
+/// # Errors
+/// An unknown path.
+pub fn get(scene: &Scene, path: &str) -> Result<Value, SceneError> {
+    if let Some((source, setting)) = find_source(scene, path) {
+        return Ok(setting.get(&scene.sources[source]));
+    }
+    let setting = SETTINGS.iter().find(|s| s.path == path).ok_or_else(|| unknown(scene, path))?;
+    Ok(setting.get(scene))
+}
+
+fn find_source(scene: &Scene, path: &str) -> Option<(usize, &'static Setting<Source>)> {
+    let (name, field) = path.strip_prefix("source.")?.rsplit_once('.')?;
+    let source = scene.sources.iter().position(|s| s.name == name)?;
+    Some((source, SOURCE_SETTINGS.iter().find(|s| s.path == field)?))
+}
+
+fn unknown(scene: &Scene, path: &str) -> SceneError {
+    let sources = scene
+        .sources
+        .iter()
+        .flat_map(|s| SOURCE_SETTINGS.iter().map(move |f| format!("source.{}.{}", s.name, f.path)));
+    let all = SETTINGS.iter().map(|s| s.path.to_string()).chain(sources);
+    let nearest = all.min_by_key(|known| distance(known, path));
+    let hint = match nearest {
+        Some(known) if distance(&known, path) <= 1 + path.len() / 3 => format!("; did you mean {known}?"),
+        _ => "; `hapflow scenes --settings` lists them all".into(),
+    };
+    SceneError::UnknownSetting { path: path.into(), hint }
+}
+
+/// Edits between two words (Levenshtein).
+pub(crate) fn distance(a: &str, b: &str) -> usize {
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.bytes().enumerate() {
+        let mut corner = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.bytes().enumerate() {
+            let replaced = corner + usize::from(x != y);
+            corner = row[j + 1];
+            row[j + 1] = replaced.min(corner + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_setting_takes_its_own_default_back() {
+        let scene = Scene::default();
+        for setting in SETTINGS {
+            let mut copy = scene.clone();
+            set(&mut copy, setting.path, &setting.get(&scene)).unwrap_or_else(|e| panic!("{e}"));
+            if setting.path != "fluid.rest_particles" {
+                assert_eq!(copy, scene, "{}", setting.path);
+            }
+        }
+    }
+
+    #[test]
+    fn a_bad_value_is_named_with_its_range() {
+        let mut scene = Scene::default();
+        let text = set(&mut scene, "fluid.viscosity", &Value::Number(-1.0)).unwrap_err().to_string();
+        assert_eq!(text, "fluid.viscosity = -1: must be a number from 0 to 10000 Pa·s");
+        assert!(set(&mut scene, "fluid.viscosity", &Value::Number(f64::NAN)).is_err());
+        let text = set(&mut scene, "fluid.solver", &Value::Text("sph".into())).unwrap_err().to_string();
+        assert_eq!(text, "fluid.solver = \"sph\": must be one of wcsph, muller");
+        assert!(set(&mut scene, "run.filter", &Value::Text("hann:0".into())).is_err());
+        assert_eq!(scene, Scene::default());
+    }
+
+    #[test]
+    fn an_unknown_path_gets_the_nearest() {
+        let text = set(&mut Scene::default(), "fluid.viscosty", &Value::Number(1.0)).unwrap_err().to_string();
+        assert_eq!(text, "no setting \"fluid.viscosty\"; did you mean fluid.viscosity?");
+    }
+
+    #[test]
+    fn what_is_fixed_stays_while_running() {
+        let mut scene = Scene::default();
+        assert!(matches!(
+            set_live(&mut scene, "run.fluid_hz", &Value::Number(60.0)),
+            Err(SceneError::NotLive(_))
+        ));
+        assert!(set_live(&mut scene, "fluid.viscosity", &Value::Number(1.0)).is_ok());
+    }
+}

@@ -1,0 +1,220 @@
+//! The threads that a session owns, in real time.
+
+use crate::fluid_unit::FluidUnit;
+use crate::servo::ServoUnit;
+use crate::SceneError;
+use hapflow_devices::HapticDevice;
+use hapflow_haptics::{FaultSet, GatedWrench};
+use hapflow_realtime::{
+    Clock, LatestReader, LatestWriter, RealtimeStatus, RealtimeThread, latest, set_normal_priority,
+    spawn_realtime,
+};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
+
+/// The servo's period, ns.
+const TICK_NS: u64 = 1_000_000;
+/// Priority of the servo thread, SCHED_FIFO.
+const PRIORITY: u8 = 80;
+/// Entries of the tick histogram: 0.1 µs each, then all that is longer.
+const TICK_BINS: usize = 2000;
+
+/// Times of the servo's ticks, as a histogram.
+#[derive(Clone, Debug)]
+pub struct TickTimes {
+    bins: Vec<u32>,
+    /// Ticks that began more than half a period late.
+    pub late: u64,
+}
+
+impl Default for TickTimes {
+    fn default() -> Self {
+        Self { bins: vec![0; TICK_BINS], late: 0 }
+    }
+}
+
+impl TickTimes {
+    /// Adds a tick of `ns` nanoseconds.
+    pub fn add(&mut self, ns: u64) {
+        self.bins[(ns as usize / 100).min(TICK_BINS - 1)] += 1;
+    }
+
+    /// The time (s) that the share `quantile` (0..1) of all ticks stayed below.
+    pub fn quantile_s(&self, quantile: f64) -> f64 {
+        let total: u64 = self.bins.iter().map(|n| u64::from(*n)).sum();
+        let mut below = 0;
+        for (k, n) in self.bins.iter().enumerate() {
+            below += u64::from(*n);
+            if below as f64 >= quantile * total as f64 && total > 0 {
+                return (k + 1) as f64 * 1e-7;
+            }
+        }
+        0.0
+    }
+}
+
+/// The servo's thread: it paces itself at 1 kHz and owns the device.
+pub struct ServoThread {
+    stop: Arc<AtomicBool>,
+    thread: Option<RealtimeThread<TickTimes>>,
+    status: RealtimeStatus,
+}
+
+impl std::fmt::Debug for ServoThread {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ServoThread").field("status", &self.status).finish_non_exhaustive()
+    }
+}
+
+impl ServoThread {
+    pub(crate) fn start(
+        servo: ServoUnit,
+        device: Box<dyn HapticDevice>,
+        clock: Arc<dyn Clock>,
+    ) -> Result<Self, SceneError> {
+        let stop = Arc::new(AtomicBool::new(false));
+        let theirs = Arc::clone(&stop);
+        let thread = spawn_realtime("hapflow-servo", PRIORITY, move || servo_loop(servo, device, &*clock, &theirs))
+            .map_err(|cause| SceneError::Thread { name: "servo", cause })?;
+        let status = thread.status().clone();
+        Ok(Self { stop, thread: Some(thread), status })
+    }
+
+    /// What the system granted.
+    pub fn status(&self) -> RealtimeStatus {
+        self.status.clone()
+    }
+
+    /// Whether it has ended, as it does when its device is lost.
+    pub fn is_finished(&self) -> bool {
+        self.thread.as_ref().is_none_or(RealtimeThread::is_finished)
+    }
+
+    /// Stops it, with zero force, and gives its ticks' times.
+    pub fn stop(&mut self) -> TickTimes {
+        self.stop.store(true, Ordering::Release);
+        self.thread.take().and_then(|t| t.join().ok()).unwrap_or_default()
+    }
+}
+
+impl Drop for ServoThread {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}
+
+fn servo_loop(
+    mut servo: ServoUnit,
+    mut device: Box<dyn HapticDevice>,
+    clock: &dyn Clock,
+    stop: &AtomicBool,
+) -> TickTimes {
+    let mut times = TickTimes::default();
+    let mut due = clock.now_ns() + TICK_NS;
+    let mut last = clock.now_ns();
+    while !stop.load(Ordering::Acquire) {
+        clock.wait_until_ns(due);
+        let now = clock.now_ns();
+        let late = now.saturating_sub(due);
+        times.late += u64::from(late > TICK_NS / 2);
+        let ticked = catch_unwind(AssertUnwindSafe(|| tick(&mut servo, &mut *device, now, now - last)));
+        if !matches!(ticked, Ok(true)) {
+            // A panic or a lost device: zero force, and no tick again.
+            servo.raise(if ticked.is_ok() { FaultSet::DEVICE_LOST } else { FaultSet::PANIC });
+            break;
+        }
+        times.add(clock.now_ns() - now);
+        last = now;
+        // Ticks that were missed are not made up for.
+        due = if late > TICK_NS { now + TICK_NS } else { due + TICK_NS };
+    }
+    let _ = catch_unwind(AssertUnwindSafe(|| {
+        let _ = device.write(GatedWrench::ZERO, 1e-3);
+        device.close();
+    }));
+    times
+}
+
+/// One tick with the device; false when it is lost.
+fn tick(servo: &mut ServoUnit, device: &mut dyn HapticDevice, now: u64, dt: u64) -> bool {
+    let (time_s, dt_s) = (now as f64 * 1e-9, dt as f64 * 1e-9);
+    let Ok(state) = device.read(time_s) else { return false };
+    let wrench = servo.tick(&state, time_s, dt_s);
+    device.write(wrench, dt_s).is_ok()
+}
+
+/// How the fluid keeps up with the clock.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FluidPace {
+    /// Frames that were stepped.
+    pub frames: u64,
+    /// Frames that the fluid was too slow for.
+    pub skipped: u64,
+}
+
+/// The fluid's thread: one frame each period.
+pub struct FluidThread {
+    stop: Arc<AtomicBool>,
+    thread: Option<JoinHandle<()>>,
+    pace: LatestReader<FluidPace>,
+}
+
+impl FluidThread {
+    pub(crate) fn start(fluid: FluidUnit, clock: Arc<dyn Clock>) -> Result<Self, SceneError> {
+        let stop = Arc::new(AtomicBool::new(false));
+        let theirs = Arc::clone(&stop);
+        let (writer, pace) = latest(FluidPace::default());
+        let thread = std::thread::Builder::new()
+            .name("hapflow-fluid".into())
+            .spawn(move || fluid_thread(fluid, &*clock, &theirs, writer))
+            .map_err(|cause| SceneError::Thread { name: "fluid", cause })?;
+        Ok(Self { stop, thread: Some(thread), pace })
+    }
+
+    /// Stops it after its frame, and says how it kept up.
+    pub fn stop(&mut self) -> FluidPace {
+        self.stop.store(true, Ordering::Release);
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+        self.pace.update();
+        *self.pace.get()
+    }
+}
+
+impl Drop for FluidThread {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}
+
+fn fluid_thread(mut fluid: FluidUnit, clock: &dyn Clock, stop: &AtomicBool, pace: LatestWriter<FluidPace>) {
+    // A host's real-time thread may have opened the session: the fluid must not take its priority.
+    let _ = set_normal_priority();
+    let flags = fluid.flags.clone();
+    let ended = catch_unwind(AssertUnwindSafe(|| fluid_loop(&mut fluid, clock, stop, pace)));
+    if ended.is_err() {
+        flags.raise(FaultSet::FLUID_FAULT.bits());
+    }
+}
+
+fn fluid_loop(fluid: &mut FluidUnit, clock: &dyn Clock, stop: &AtomicBool, mut pace: LatestWriter<FluidPace>) {
+    let period = (fluid.frame_s() * 1e9) as u64;
+    let mut so_far = FluidPace::default();
+    let mut end = clock.now_ns() + period;
+    while !stop.load(Ordering::Acquire) {
+        clock.wait_until_ns(end);
+        fluid.compute(end as f64 * 1e-9);
+        let now = clock.now_ns();
+        fluid.publish(now as f64 * 1e-9);
+        so_far.frames += 1;
+        end += period;
+        // Too slow: fluid time falls behind, and the path between is passed over.
+        let behind = now.saturating_sub(end) / period;
+        so_far.skipped += behind;
+        end += behind * period;
+        pace.write(so_far);
+    }
+}
