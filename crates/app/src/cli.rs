@@ -1,0 +1,108 @@
+//! What people may write on the command line.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// hapflow lets a hand feel a fluid.
+///
+/// A scene goes in, a fluid runs, a hand (simulated, recorded or real) moves in it at 1 kHz, and the force that
+/// it feels comes out: as a table here, and as force.csv, force.png, summary.json and pictures in out/SCENE.
+#[derive(Debug, Parser)]
+#[command(name = "hapflow", version, after_help = EXAMPLES)]
+pub struct Cli {
+    /// What to do; without a word, the scene `tap` is run.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  hapflow                                     run the scene `tap`, results in out/tap
+  hapflow run tank --duration 3               stir a tank for three seconds
+  hapflow run tap --coupling momentum         the thesis's baseline, with its own filter
+  hapflow run tap --filter butterworth:50     another filter
+  hapflow run tap --set fluid.viscosity=0.1 --set source.tap.speed=2
+  hapflow run tap --motion tremor             a recorded hand instead of the simulated one
+  hapflow run my-scene.toml --realtime        your own scene, in real time
+  hapflow scenes --settings                   every setting with its unit, range and default";
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a scene and write what the hand felt.
+    Run(Box<RunArgs>),
+    /// List the shipped scenes, or all settings.
+    Scenes(ScenesArgs),
+    /// List the devices that can move the tool.
+    Devices,
+}
+
+impl Default for Command {
+    fn default() -> Self {
+        Self::Run(Box::new(RunArgs { scene: "tap".into(), ..RunArgs::default() }))
+    }
+}
+
+/// Arguments of `run`.
+#[derive(Debug, Default, Args)]
+pub struct RunArgs {
+    /// A shipped scene (see `hapflow scenes`) or a TOML file.
+    #[arg(default_value = "tap")]
+    pub scene: String,
+    /// Simulated seconds; the scene's own if left out.
+    #[arg(long, value_name = "S")]
+    pub duration: Option<f64>,
+    /// Replay a recorded motion instead of the scene's device: a CSV file (time_s,x_m,y_m,z_m) or a shipped name.
+    #[arg(long, value_name = "FILE|NAME")]
+    pub motion: Option<String>,
+    /// How tool and fluid meet: direct, momentum (the thesis's).
+    #[arg(long, value_name = "NAME")]
+    pub coupling: Option<String>,
+    /// What smooths the force: none, bartlett-hann:11@fluid, boxcar:10@servo, butterworth:50, one-euro:5:0.5, auto.
+    #[arg(long, value_name = "NAME")]
+    pub filter: Option<String>,
+    /// How the fluid is solved: wcsph, muller (the thesis's).
+    #[arg(long, value_name = "NAME")]
+    pub solver: Option<String>,
+    /// Fluid frames a second.
+    #[arg(long, value_name = "N")]
+    pub fluid_hz: Option<f64>,
+    /// Run in real time, with a live force meter; else as fast as it goes, the same each time.
+    #[arg(long)]
+    pub realtime: bool,
+    /// Worker threads of the fluid; 0 takes all cores but one in real time, all of them otherwise.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub threads: usize,
+    /// Set any setting; may be repeated. `hapflow scenes --settings` lists them.
+    #[arg(long, value_name = "path.to.setting=VALUE")]
+    pub set: Vec<String>,
+    /// Folder for the results, made if absent [default: out/SCENE].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print the summary as JSON and nothing else.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `scenes`.
+#[derive(Debug, Args)]
+pub struct ScenesArgs {
+    /// List every setting with its unit, range and default instead.
+    #[arg(long)]
+    pub settings: bool,
+}
+
+/// Help and version go to the reader whole; anything else is one clear line and exit code 2.
+pub fn explain(error: &clap::Error) -> ExitCode {
+    if !error.use_stderr() {
+        let _ = error.print();
+        return ExitCode::SUCCESS;
+    }
+    let text = error.to_string();
+    let mut lines = text.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with("Usage"));
+    let first = lines.next().unwrap_or("error: unusable arguments").trim_start_matches("error: ");
+    let tip = lines.find(|l| l.starts_with("tip:")).map(|l| format!("; {l}")).unwrap_or_default();
+    eprintln!("hapflow: {first}{tip} (hapflow --help tells more)");
+    ExitCode::from(2)
+}
