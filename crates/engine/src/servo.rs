@@ -61,6 +61,7 @@ pub struct ServoUnit {
     pub(crate) tape: Option<RingProducer<ServoReport>>,
     pub(crate) newest: ServoReport,
     pub(crate) last_device: ToolState,
+    pub(crate) started_s: f64,
 }
 
 impl std::fmt::Debug for ServoUnit {
@@ -77,6 +78,9 @@ impl ServoUnit {
     /// force.
     pub fn tick(&mut self, device: &ToolState, time_s: f64, dt_s: f64) -> GatedWrench {
         self.take_settings();
+        if self.newest.tick == 0 {
+            self.started_s = time_s;
+        }
         let faults = self.take_input(device, time_s);
         let tool = self.mapping.to_scene(self.last_device);
         let lost = self.path.push(PathSample { time_s, tool });
@@ -140,9 +144,8 @@ impl ServoUnit {
     }
 
     fn age(&self, model: &LocalModel, time_s: f64) -> ModelAge {
-        if model.frame == 0 {
-            return ModelAge::MISSING;
-        }
-        ModelAge { age_s: time_s - model.published_s, frame_s: self.frame_s }
+        // Before the first model the wait counts from the first tick: a fluid that never comes is stale too.
+        let since = if model.frame == 0 { self.started_s } else { model.published_s };
+        ModelAge { age_s: time_s - since, frame_s: self.frame_s }
     }
 }

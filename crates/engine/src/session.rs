@@ -245,6 +245,7 @@ impl Session {
             report: report_writer,
             tape: tape_in,
             newest: ServoReport::default(),
+            started_s: 0.0,
         };
         let live = Live::of(scene, threads);
         let fluid = FluidUnit {

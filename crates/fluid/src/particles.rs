@@ -23,6 +23,8 @@ pub(crate) struct Particles {
     pub aux: Vec<f32>,
     /// `wcsph`: packing feedback, m²/s³. `muller`: density that is forgiven after a change of mode, kg/m³.
     pub slow: Vec<f32>,
+    /// `wcsph`: share of its neighbourhood that fluid and solids fill, at the last look.
+    pub fill: Vec<f32>,
     /// Time since birth, s.
     pub age: Vec<f32>,
     /// Time for which the source still leads it, s.
@@ -70,7 +72,7 @@ impl Particles {
         (self.u[i], self.v[i], self.w[i]) = (v.x, v.y, v.z);
     }
 
-    fn columns(&mut self) -> [&mut Vec<f32>; 11] {
+    fn columns(&mut self) -> [&mut Vec<f32>; 12] {
         [
             &mut self.x,
             &mut self.y,
@@ -81,6 +83,7 @@ impl Particles {
             &mut self.p,
             &mut self.aux,
             &mut self.slow,
+            &mut self.fill,
             &mut self.age,
             &mut self.held,
         ]
@@ -95,7 +98,7 @@ impl Particles {
         self.id.truncate(len);
         for b in newborn {
             let row = [b.position.x, b.position.y, b.position.z, b.velocity.x, b.velocity.y, b.velocity.z];
-            let row = row.into_iter().chain([b.pressure, 0.0, 0.0, 0.0, b.held]);
+            let row = row.into_iter().chain([b.pressure, 0.0, 0.0, 1.0, 0.0, b.held]);
             for (column, value) in self.columns().into_iter().zip(row) {
                 column.push(value);
             }

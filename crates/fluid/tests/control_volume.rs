@@ -81,7 +81,9 @@ fn check(solver: Solver) {
             let mut config = jet_scene(solver, spacing);
             config.world.sources[0].position.x = offset;
             let [load, balance] = forces(&config);
-            let case = format!("{solver:?}, dx {spacing} m, off by {offset} m: loads {load:.4}, balance {balance:.4}");
+            let case = format!(
+                "{solver:?}, dx {spacing} m, off by {offset} m: loads {load:.4}, balance {balance:.4}"
+            );
             assert!(balance.y < -0.05, "the jet must push: {case}");
             if offset > 0.0 {
                 assert!(balance.x < -0.05, "an off-centre jet must push aside: {case}");

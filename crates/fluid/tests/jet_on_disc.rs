@@ -33,16 +33,17 @@ fn particles(spacing: f64, speed: f64, density: f64, radii: f64) -> DVec3 {
     let mut run = Run::new(&scene(spacing, speed, density, radii));
     // Four times the way from the outlet to the plate's rim.
     run.run(4.0 * (0.04 + radii * RADIUS) / speed);
-    let force = run.mean_force(0.36 / speed) / expected(speed, density);
-    println!("dx {spacing} v {speed} rho {density} plate {radii} R: {force:.4}");
-    force
+    run.mean_force(0.36 / speed) / expected(speed, density)
 }
 
 #[test]
 fn particles_push_with_rho_a_v_squared() {
-    for (spacing, speed, density, radii) in
-        [(0.005, 1.5, 1000.0, 3.0), (0.005, 3.0, 1000.0, 4.0), (0.0037, 1.5, 1000.0, 3.0), (0.005, 3.0, 870.0, 3.0)]
-    {
+    for (spacing, speed, density, radii) in [
+        (0.005, 1.5, 1000.0, 3.0),
+        (0.005, 3.0, 1000.0, 4.0),
+        (0.0037, 1.5, 1000.0, 3.0),
+        (0.005, 3.0, 870.0, 3.0),
+    ] {
         let force = particles(spacing, speed, density, radii);
         let case = format!("dx {spacing} m, {speed} m/s, {density} kg/m³: {force}");
         assert!((force.y + 1.0).abs() < 0.15, "{case}");

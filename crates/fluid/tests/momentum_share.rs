@@ -6,7 +6,7 @@ mod common;
 
 use common::{Run, SOLVERS, jet_scene, kinetic_energy, momentum, vector};
 use glam::DVec3;
-use hapflow_fluid::{BodyDrive, BodySample, BodyState, FluidConfig, FrameOutput, Solver};
+use hapflow_fluid::{BodyDrive, BodySample, BodyState, FrameOutput, Solver};
 
 /// A column of water that has left its tap and meets a ball in empty space without gravity, a little off its
 /// centre. The ball is about to be hit.
@@ -18,7 +18,6 @@ fn struck(solver: Solver, spacing: f64, mass: f64, share: f64) -> (Run, BodyStat
     config.world.bodies[0].collision_response = share;
     let mut run = Run::new(&config);
     run.run(0.03);
-    let mut config: FluidConfig = config;
     config.world.sources[0].on = false;
     run.configure(&config);
     // The last layer is out of the source's lead after two spacings.
@@ -43,9 +42,14 @@ fn momentum_is_kept_where_the_body_takes_all() {
             }
             let gained = state.velocity * 0.05;
             let lost = before - momentum(&run.snapshot(), mass);
-            println!("{solver:?} dx {spacing}: before {before:.6} lost {lost:.6} gained {gained:.6} err {:.2e}", (gained-lost).length()/lost.length());
-            assert!(gained.length() > 0.1 * before.length(), "{solver:?}, dx {spacing} m: it must be hit: {gained}");
-            assert!((gained - lost).length() < 1e-3 * lost.length(), "{solver:?}, dx {spacing} m: {gained} {lost}");
+            assert!(
+                gained.length() > 0.1 * before.length(),
+                "{solver:?}, dx {spacing} m: it must be hit: {gained}"
+            );
+            assert!(
+                (gained - lost).length() < 1e-3 * lost.length(),
+                "{solver:?}, dx {spacing} m: {gained} {lost}"
+            );
         }
     }
 }
@@ -61,7 +65,10 @@ fn the_body_takes_its_share_of_every_frame() {
                 let impulse = output.loads[0].force() / run.config.frame_hz;
                 let gained = (output.bodies[0].velocity - state.velocity) * 0.05;
                 pushed += usize::from(impulse.length() > 1e-6);
-                assert!((gained - share * impulse).length() < 1e-9, "{solver:?}, {share}: {gained} of {impulse}");
+                assert!(
+                    (gained - share * impulse).length() < 1e-9,
+                    "{solver:?}, {share}: {gained} of {impulse}"
+                );
                 state = output.bodies[0];
             }
             assert!(pushed >= 10, "{solver:?}: the ball must be hit, and was in {pushed} frames");
@@ -69,7 +76,7 @@ fn the_body_takes_its_share_of_every_frame() {
     }
 }
 
-/// The fluid cannot tell a tool of a ton from one that yields a fifth as much, so both meet the same water.
+/// A heavy tool hardly yields, so that the same particles hit it whatever its share.
 #[test]
 fn a_fifth_of_the_response_is_a_fifth_of_the_gain() {
     for solver in SOLVERS {
@@ -81,7 +88,6 @@ fn a_fifth_of_the_response_is_a_fifth_of_the_gain() {
             state.velocity.y
         };
         let (all, fifth) = (gain(1.0), gain(0.2));
-        println!("{solver:?} {all:e} {fifth:e} {}", fifth/all);
         assert!(all < -1e-6 && (fifth / all - 0.2).abs() < 1e-3, "{solver:?}: {fifth} of {all}");
     }
 }
@@ -113,7 +119,8 @@ fn one_particle_and_a_ball_of_twice_its_mass_share_their_motion() {
         let j = (1.0 + restitution) * 1.5 / (1.0 / mass + share / (2.0 * mass));
         let expected = [DVec3::NEG_Y * (1.5 - j / mass), DVec3::NEG_Y * (share * j / (2.0 * mass))];
         // The particle stands 0.2 mm off the axis: the normal leans by a hundredth.
-        let case = format!("C_R {share}, e {restitution}: particle {particle}, ball {ball}, not {expected:?}");
+        let case =
+            format!("C_R {share}, e {restitution}: particle {particle}, ball {ball}, not {expected:?}");
         assert!((particle - expected[0]).length() < 0.02 && (ball - expected[1]).length() < 0.02, "{case}");
     }
 }
@@ -126,15 +133,13 @@ fn a_light_ball_takes_no_more_energy_than_there_is() {
             let (mut run, mut state) = struck(solver, 0.005, mass, 1.0);
             let particle = run.config.settings.particle_mass();
             let energy = kinetic_energy(&run.snapshot(), particle);
-            let (mut most, mut top) = (0.0_f64, 0.0_f64);
-            for _ in 0..40 {
-                let out = drive(&mut run, &state);
-                state = out.bodies[0];
-                top = top.max(state.velocity.length());
-                let now = kinetic_energy(&run.snapshot(), particle) + 0.5 * mass * state.velocity.length_squared();
-                most = most.max(now);
+            for frame in 0..40 {
+                state = drive(&mut run, &state).bodies[0];
+                let now =
+                    kinetic_energy(&run.snapshot(), particle) + 0.5 * mass * state.velocity.length_squared();
+                assert!(now < 1.01 * energy, "{solver:?}, {mass} kg, frame {frame}: {now} J of {energy} J");
             }
-            println!("{solver:?} {mass} {energy:e} {most:e} {} {top}", most/energy);
+            assert!(state.velocity.length() > 0.1, "{solver:?}, {mass} kg: it must be hit");
         }
     }
 }

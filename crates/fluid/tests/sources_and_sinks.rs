@@ -38,33 +38,34 @@ fn a_jet_carries_its_flow_at_its_speed() {
             assert!((volume(&mut run) - given).abs() < 1.01 * layer(&config), "{solver:?}, dx {spacing} m");
             // Free fall: v² = v₀² + 2 g s.
             let view = run.snapshot();
-            let mut worst = 0.0_f64;
             for (x, v) in view.positions.iter().map(vector).zip(view.velocities.iter().map(vector)) {
+                // Gravity takes over from the source after two spacings.
                 let fallen = (0.06 - 2.0 * spacing - x.y).max(0.0);
                 let free = (1.5 * 1.5 + 2.0 * 9.81 * fallen).sqrt();
-                worst = worst.max((-v.y - free).abs());
+                assert!((-v.y - free).abs() < 0.1, "{solver:?}, dx {spacing} m: {v} after {fallen} m");
             }
-            println!("{solver:?} {spacing} worst {worst}");
         }
     }
 }
 
 #[test]
 fn an_intermittent_jet_runs_its_duty() {
-    for (period, duty) in [(0.04, 0.25), (0.08, 0.5), (0.02, 1.0)] {
+    for (period, duty) in [(0.05, 0.3), (0.1, 0.5), (0.02, 1.0)] {
         let mut config = free_jet(Solver::Wcsph, 0.004);
         config.settings.mode = InteractionMode::None;
         (config.world.sources[0].period, config.world.sources[0].duty) = (period, duty);
         let mut run = Run::new(&config);
-        run.run(0.24);
-        let given = config.world.sources[0].flow() * 0.24 * duty;
+        run.run(0.2);
+        let given = config.world.sources[0].flow() * 0.2 * duty;
         let got = volume(&mut run);
-        println!("{period} {duty}: {}", got / given);
-        assert!((got - given).abs() < 0.03 * given + 1.01 * layer(&config), "{period} s, {duty}: {got} of {given} m³");
+        assert!(
+            (got - given).abs() < 0.02 * given + 1.01 * layer(&config),
+            "{period} s, {duty}: {got} of {given} m³"
+        );
         // A gap is a gap: nothing stands in the band that left the tap while it was closed.
         if duty < 1.0 {
             let age = |y: f64| ((1.5_f64.powi(2) + 2.0 * 9.81 * (0.06 - y).max(0.0)).sqrt() - 1.5) / 9.81;
-            let phase = |y: f64| (0.24 - age(y)).rem_euclid(period) / period;
+            let phase = |y: f64| (0.2 - age(y)).rem_euclid(period) / period;
             let view = run.snapshot();
             let stray = view.positions.iter().filter(|p| {
                 let phase = phase(f64::from(p[1]));
@@ -100,10 +101,15 @@ fn particles_vanish_at_their_age() {
             run.run(0.16);
             let given = config.world.sources[0].flow() * lifetime;
             let got = volume(&mut run);
-            println!("{solver:?} {lifetime}: {got} {given} layer {}", layer(&config));
-            assert!((got - given).abs() < 1.2 * layer(&config), "{solver:?}, {lifetime} s: {got} of {given} m³");
+            assert!(
+                (got - given).abs() < 1.2 * layer(&config),
+                "{solver:?}, {lifetime} s: {got} of {given} m³"
+            );
             let late = run.snapshot().ids;
-            assert!(late.iter().all(|id| !early.contains(id)), "{solver:?}: an old one lives, or an id came twice");
+            assert!(
+                late.iter().all(|id| !early.contains(id)),
+                "{solver:?}: an old one lives, or an id came twice"
+            );
         }
     }
 }
@@ -131,7 +137,6 @@ fn sinks_swallow_and_bounds_end_the_world() {
             // Steady again: what is there is what has been given since it takes to fall to the sink.
             let fall = ((1.5_f64.powi(2) + 2.0 * 9.81 * 0.09).sqrt() - 1.5) / 9.81;
             let (got, given) = (volume(&mut run), config.world.sources[0].flow() * fall);
-            println!("{solver:?} {spacing} {got} {given} {}", got/given);
             assert!((got / given - 1.0).abs() < 0.1, "{solver:?}: {got} of {given} m³");
         }
     }
@@ -147,7 +152,6 @@ fn the_limit_on_particles_holds() {
         for _ in 0..100 {
             most = most.max(run.frame().particles);
         }
-        println!("{most}");
         assert!(most <= 200 && most > 150, "{solver:?}: {most}");
     }
     let mut config = tank_scene(Solver::Wcsph, 0.1, 10, 0.02);
@@ -169,14 +173,12 @@ fn the_ground_carries_the_water() {
             let view = run.snapshot();
             assert_finite(&view, "ground");
             let lowest = view.positions.iter().map(|p| f64::from(p[1])).fold(f64::INFINITY, f64::min);
-            println!("{solver:?} {spacing} lowest {lowest}");
             assert!(lowest > -0.02 - 0.26 * spacing, "{solver:?}, dx {spacing} m: {lowest} m");
             // It spreads to all sides, and no side more than another.
             let rim: Vec<_> = view.positions.iter().map(vector).filter(|p| p.x.hypot(p.z) > 0.05).collect();
             let centre = rim.iter().sum::<DVec3>() / rim.len() as f64;
-            println!("rim {} centre {centre}", rim.len());
             assert!(rim.len() > 20, "{solver:?}, dx {spacing} m: it must spread");
-            assert!(centre.x.hypot(centre.z) < 0.02, "{solver:?}, dx {spacing} m: it runs to {centre}");
+            assert!(centre.x.hypot(centre.z) < 0.01, "{solver:?}, dx {spacing} m: it runs to {centre}");
         }
     }
 }

@@ -25,7 +25,8 @@ fn levels(view: &ParticleView, spacing: f64) -> [f64; 4] {
             let (x, z) = ((*k as f64 / columns).floor(), *k as f64 % columns);
             usize::from(x >= columns / 2.0) * 2 + usize::from(z >= columns / 2.0) == quarter
         };
-        let heights: Vec<_> = (0..tops.len()).filter(here).map(|k| tops[k]).filter(|y| y.is_finite()).collect();
+        let heights: Vec<_> =
+            (0..tops.len()).filter(here).map(|k| tops[k]).filter(|y| y.is_finite()).collect();
         heights.iter().sum::<f64>() / heights.len() as f64
     })
 }
@@ -43,7 +44,6 @@ fn a_ball_is_carried_by_the_water_that_it_displaces() {
         let view = run.snapshot();
         let levels = levels(&view, spacing);
         let lowest = view.positions.iter().map(|p| f64::from(p[1])).fold(f64::INFINITY, f64::min);
-        println!("{cells}: force {force:.4} levels {levels:.4?} lowest {lowest} dx {spacing} n {count} {}", view.ids.len());
         assert!((force.y - 1.0).abs() < 0.03, "{cells} cells: {force} of Archimedes' force");
         assert!(force.x.hypot(force.z) < 0.01, "{cells} cells: {force} to the side");
         assert_eq!(view.ids.len(), count, "{cells} cells: the tank leaks");

@@ -76,7 +76,11 @@ fn any_number_of_threads_gives_the_same_bits() {
         assert!(one.loads.iter().any(|&bits| f64::from_bits(bits) != 0.0), "the tool must feel something");
         for threads in [2, 3, 8] {
             let other = trace(&scene, threads, false);
-            assert_eq!(one.ids, other.ids, "order of particles, {:?} with {threads} threads", scene.settings.solver);
+            assert_eq!(
+                one.ids, other.ids,
+                "order of particles, {:?} with {threads} threads",
+                scene.settings.solver
+            );
             assert!(one == other, "{:?} with {threads} threads", scene.settings.solver);
         }
     }

@@ -38,6 +38,11 @@ pub(crate) fn artificial_viscosity(config: &FluidConfig) -> f64 {
     s.artificial_viscosity * config.sound_speed() * s.support_length() / 20.0
 }
 
+/// Below this share a particle is spray: a drop or a sheet one particle thick.
+const SPRAY: f32 = 0.75;
+/// Time in which spray forgets its pressure, s.
+const SPRAY_TIME: f32 = 0.003;
+
 /// Constants of one configuration.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wcsph {
@@ -112,8 +117,13 @@ impl Wcsph {
     pub fn take_packing(&self, particles: &mut Particles, rows: &Rows) {
         let c2 = self.sound * self.sound;
         for (i, row) in rows.iter().enumerate() {
+            particles.fill[i] = row[0];
             let error = (row[0] - 1.0 - particles.p[i] / c2).clamp(-PACKING_CLIP, PACKING_CLIP);
-            particles.slow[i] = if row[0] < FREE_SURFACE { 0.0 } else { c2 / PACKING_TIME * error };
+            particles.slow[i] = match row[0] {
+                fill if fill < SPRAY => -particles.p[i] / SPRAY_TIME,
+                fill if fill < FREE_SURFACE => 0.0,
+                _ => c2 / PACKING_TIME * error,
+            };
         }
     }
 
@@ -122,7 +132,10 @@ impl Wcsph {
         let c2 = self.sound * self.sound;
         for (i, &[divergence, diffusion, ..]) in rows.iter().enumerate() {
             let rate = diffusion + particles.slow[i] - c2 * divergence;
-            let p = if particles.held[i] > 0.0 { 0.0 } else { (particles.p[i] + dt * rate).max(0.0) };
+            // Spray that has been squeezed lets go at once: a drop splashes on a wall and does not bounce.
+            let lets_go = particles.fill[i] < SPRAY && divergence > 0.0;
+            let free = lets_go || particles.held[i] > 0.0;
+            let p = if free { 0.0 } else { (particles.p[i] + dt * rate).max(0.0) };
             particles.p[i] = p;
             particles.aux[i] = (p - self.damper * divergence).max(0.0);
         }

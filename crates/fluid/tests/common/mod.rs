@@ -3,8 +3,8 @@
 
 use glam::DVec3;
 use hapflow_fluid::{
-    Aabb, BodyConfig, BodyDrive, BodyMotion, BodySample, CpuBackend, FluidBackend, FluidConfig, FluidSettings,
-    FrameInput, FrameOutput, OpenBox, ParticleView, Shape, Solver, Source, World,
+    Aabb, BodyConfig, BodyDrive, BodyMotion, BodySample, CpuBackend, FluidBackend, FluidConfig,
+    FluidSettings, FrameInput, FrameOutput, OpenBox, ParticleView, Shape, Solver, Source, World,
 };
 use std::f64::consts::PI;
 

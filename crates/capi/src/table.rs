@@ -1,0 +1,161 @@
+//! Handles, and the table of sessions behind them: the library's one static. (What else lasts is a thread's own
+//! last error.)
+
+use crate::code::Code;
+use crate::fluid::FluidSide;
+use crate::lane::{Alone, Claimed, Lane, Refused, Sharing};
+use crate::servo::ServoSide;
+use crate::session::{AnySide, MainSide};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// Sessions at once: `HAPFLOW_MAX_SESSIONS`.
+pub const MAX_SESSIONS: usize = 64;
+
+/// `hapflow_session`: slot + 1 in the lower half, generation in the upper; 0 is null.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Handle {
+    id: u64,
+}
+
+const _: () = assert!(size_of::<Handle>() == 8);
+
+impl Handle {
+    fn new(slot: usize, generation: u32) -> Self {
+        Self { id: u64::from(generation) << 32 | (slot as u64 + 1) }
+    }
+
+    fn generation(self) -> u32 {
+        (self.id >> 32) as u32
+    }
+}
+
+/// A session in its four parts, one a thread class.
+struct Slot {
+    main: Lane<MainSide>,
+    servo: Lane<ServoSide>,
+    fluid: Lane<FluidSide>,
+    any: Lane<AnySide>,
+}
+
+/// What [`Library::place`] places and [`Library::remove`] gives back.
+pub struct Parts {
+    pub main: MainSide,
+    pub servo: ServoSide,
+    pub fluid: FluidSide,
+    pub any: AnySide,
+}
+
+/// All that lasts: the version that was agreed on, and the sessions.
+pub struct Library {
+    version: AtomicU32,
+    slots: [Slot; MAX_SESSIONS],
+}
+
+pub static LIBRARY: Library = Library::new();
+
+impl From<Refused> for Code {
+    fn from(refused: Refused) -> Self {
+        match refused {
+            Refused::Stale => Self::ERROR_HANDLE,
+            Refused::Busy => Self::ERROR_BUSY,
+        }
+    }
+}
+
+impl Library {
+    const fn new() -> Self {
+        Self { version: AtomicU32::new(0), slots: [const { Slot::vacant() }; MAX_SESSIONS] }
+    }
+
+    /// Notes the version that was agreed on.
+    pub fn agree(&self, version: u32) {
+        self.version.store(version, Ordering::Release);
+    }
+
+    /// Refuses while no version was agreed on.
+    pub fn negotiated(&self) -> Result<(), Code> {
+        if self.version.load(Ordering::Acquire) == 0 { Err(Code::ERROR_NOT_NEGOTIATED) } else { Ok(()) }
+    }
+
+    /// Puts a session into the first vacant slot.
+    pub fn place(&self, parts: Parts) -> Result<Handle, Code> {
+        for (index, slot) in self.slots.iter().enumerate() {
+            if let Some(claimed) = slot.claim() {
+                return Ok(Handle::new(index, claimed.open(parts)));
+            }
+        }
+        Err(Code::ERROR_FULL)
+    }
+
+    /// Takes a session out, once nobody is in it.
+    pub fn remove(&self, handle: Handle) -> Result<Parts, Code> {
+        let (slot, generation) = (self.slot(handle)?, handle.generation());
+        // The one who closes main first is the one who closes all.
+        let mut main = slot.main.close(generation)?;
+        let mut servo = slot.servo.close(generation)?;
+        let mut fluid = slot.fluid.close(generation)?;
+        let mut any = slot.any.close(generation)?;
+        match (main.take(), servo.take(), fluid.take(), any.take()) {
+            (Some(main), Some(servo), Some(fluid), Some(any)) => Ok(Parts { main, servo, fluid, any }),
+            _ => Err(Code::ERROR_HANDLE),
+        }
+    }
+
+    pub fn main(&self, handle: Handle) -> Result<Alone<'_, MainSide>, Code> {
+        Ok(self.slot(handle)?.main.enter(handle.generation())?)
+    }
+
+    pub fn servo(&self, handle: Handle) -> Result<Alone<'_, ServoSide>, Code> {
+        Ok(self.slot(handle)?.servo.enter(handle.generation())?)
+    }
+
+    pub fn fluid(&self, handle: Handle) -> Result<Alone<'_, FluidSide>, Code> {
+        Ok(self.slot(handle)?.fluid.enter(handle.generation())?)
+    }
+
+    pub fn any(&self, handle: Handle) -> Result<Sharing<'_, AnySide>, Code> {
+        Ok(self.slot(handle)?.any.share(handle.generation())?)
+    }
+
+    fn slot(&self, handle: Handle) -> Result<&Slot, Code> {
+        let index = (handle.id & u64::from(u32::MAX)).wrapping_sub(1);
+        usize::try_from(index).ok().and_then(|i| self.slots.get(i)).ok_or(Code::ERROR_HANDLE)
+    }
+}
+
+impl Slot {
+    const fn vacant() -> Self {
+        Self { main: Lane::vacant(), servo: Lane::vacant(), fluid: Lane::vacant(), any: Lane::vacant() }
+    }
+
+    /// Main first: it decides between two who want the slot.
+    fn claim(&self) -> Option<ClaimedSlot<'_>> {
+        let main = self.main.claim()?;
+        Some(ClaimedSlot {
+            servo: self.servo.claim()?,
+            fluid: self.fluid.claim()?,
+            any: self.any.claim()?,
+            main,
+        })
+    }
+}
+
+struct ClaimedSlot<'a> {
+    main: Claimed<'a, MainSide>,
+    servo: Claimed<'a, ServoSide>,
+    fluid: Claimed<'a, FluidSide>,
+    any: Claimed<'a, AnySide>,
+}
+
+impl ClaimedSlot<'_> {
+    /// Fills it, and says with which generation; never 0, so that no handle is null.
+    fn open(self, parts: Parts) -> u32 {
+        let generation = self.main.generation().checked_add(1).unwrap_or(1);
+        self.any.open(generation, parts.any);
+        self.fluid.open(generation, parts.fluid);
+        self.servo.open(generation, parts.servo);
+        self.main.open(generation, parts.main);
+        generation
+    }
+}
