@@ -16,13 +16,11 @@ pub struct Meter {
 impl Meter {
     /// `live` shows the force against `full_scale_n`; `quiet` shows nothing.
     pub fn new(quiet: bool, live: bool, full_scale_n: f64) -> Self {
-        let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr_with_hz(15) };
+        let target =
+            if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr_with_hz(15) };
         let bar = ProgressBar::with_draw_target(Some(1000), target);
-        let template = if live {
-            "{elapsed_precise} {msg}"
-        } else {
-            "{bar:32} {percent:>3} %  {msg}  {eta} left"
-        };
+        let template =
+            if live { "{elapsed_precise} {msg}" } else { "{bar:32} {percent:>3} %  {msg}  {eta} left" };
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style.progress_chars("━╸─"));
         }

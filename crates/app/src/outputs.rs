@@ -60,7 +60,8 @@ fn draw(scene: &Scene, picture: &Picture) -> image::Image {
             diameter: s.diameter as f32,
         })
         .collect();
-    let caption = format!("{}   t = {:.2} s   {} particles", scene.name, picture.time_s, view.positions.len());
+    let caption =
+        format!("{}   t = {:.2} s   {} particles", scene.name, picture.time_s, view.positions.len());
     let tool = &picture.servo.tool;
     frame::render(
         &Scene3d {

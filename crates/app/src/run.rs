@@ -53,7 +53,8 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
 fn scene(args: &RunArgs) -> Result<Scene, Failure> {
     let mut scene = load(&args.scene)?;
     let mut put = |path: &str, value: Value| settings::set(&mut scene, path, &value);
-    let words = [("run.coupling", &args.coupling), ("run.filter", &args.filter), ("fluid.solver", &args.solver)];
+    let words =
+        [("run.coupling", &args.coupling), ("run.filter", &args.filter), ("fluid.solver", &args.solver)];
     for (path, word) in words {
         if let Some(word) = word {
             put(path, Value::Text(word.clone()))?;
@@ -126,5 +127,10 @@ fn tell(args: &RunArgs, scene: &Scene, outcome: &Outcome, summary: &Summary, fol
         let late = outcome.timing.ticks.late;
         let _ = writeln!(out, "  late ticks             {late}\n  skipped fluid frames   {}\n", pace.skipped);
     }
-    let _ = writeln!(out, "  force.csv, force.png, summary.json and {} pictures are in {}", outcome.pictures.len(), folder.display());
+    let _ = writeln!(
+        out,
+        "  force.csv, force.png, summary.json and {} pictures are in {}",
+        outcome.pictures.len(),
+        folder.display()
+    );
 }

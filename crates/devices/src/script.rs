@@ -298,7 +298,8 @@ mod tests {
 
     #[test]
     fn a_circle_turns_about_its_centre() {
-        let circle = Segment::Circle { centre: DVec3::new(1.0, 9.0, 2.0), frequency_hz: 0.5, duration_s: 2.0 };
+        let circle =
+            Segment::Circle { centre: DVec3::new(1.0, 9.0, 2.0), frequency_hz: 0.5, duration_s: 2.0 };
         let script = TargetScript::new(DVec3::new(1.0, 0.5, 2.1), &[circle], AtEnd::Repeat).unwrap();
         let quarter = script.at(0.5);
         assert!(quarter.position.distance(DVec3::new(1.1, 0.5, 2.0)) < 1e-12);

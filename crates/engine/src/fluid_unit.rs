@@ -3,9 +3,7 @@
 use crate::servo::PathSample;
 use crate::session::{Live, Shared};
 use glam::DVec3;
-use hapflow_fluid::{
-    BodyDrive, BodyMotion, BodySample, FluidBackend, FrameInput, FrameOutput, ParticleView,
-};
+use hapflow_fluid::{BodyDrive, BodyMotion, BodySample, FluidBackend, FrameInput, FrameOutput, ParticleView};
 use hapflow_haptics::{BodyState, Coupling, Drive, FaultSet, LocalModel, ToolState, Wrench};
 use hapflow_realtime::{LatestWriter, RingConsumer, SharedFlags};
 use std::sync::Arc;

@@ -1,8 +1,8 @@
 //! Whole runs: a scene, its device, and every tick recorded.
 
 use crate::{
-    Drive, FluidPace, FluidReport, Recording, Scene, SceneError, ServoReport, Session, SessionOptions, TickTimes,
-    open_device,
+    Drive, FluidPace, FluidReport, Recording, Scene, SceneError, ServoReport, Session, SessionOptions,
+    TickTimes, open_device,
 };
 use hapflow_fluid::ParticleView;
 use hapflow_haptics::FaultSet;

@@ -15,7 +15,8 @@ use toml::de::{DeTable, DeValue};
 /// The first thing that is wrong.
 pub fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
     let reader = Reader { text, file };
-    let root = DeTable::parse(text).map_err(|e| reader.error_at(e.span().map_or(0, |s| s.start), e.message()))?;
+    let root =
+        DeTable::parse(text).map_err(|e| reader.error_at(e.span().map_or(0, |s| s.start), e.message()))?;
     let mut scene = Scene { name: file.to_string(), ..Scene::default() };
     // Sources first: settings and changes address them by name.
     for key in ["source", "hand"] {
@@ -153,7 +154,9 @@ impl Reader<'_> {
             match name.get_ref().as_ref() {
                 "min" => found[0] = Some(self.vector("min", value, 100.0)?),
                 "max" => found[1] = Some(self.vector("max", value, 100.0)?),
-                other => return self.wrong(value, &format!("{key}.{other} is unknown: a box has min and max")),
+                other => {
+                    return self.wrong(value, &format!("{key}.{other} is unknown: a box has min and max"));
+                }
             }
         }
         let [Some(min), Some(max)] = found else {
@@ -293,7 +296,10 @@ impl Reader<'_> {
         };
         let known = ["hold", "move", "in", "swing", "circle", "hz", "for"];
         if let Some((name, value)) = table.iter().find(|(n, _)| !known.contains(&n.get_ref().as_ref())) {
-            return self.wrong(value, &format!("hand.script: \"{}\" is unknown; an entry is {help}", name.get_ref()));
+            return self.wrong(
+                value,
+                &format!("hand.script: \"{}\" is unknown; an entry is {help}", name.get_ref()),
+            );
         }
         if let Some(place) = table.get("move") {
             let position = self.vector("hand.script move", place, 10.0)?;
@@ -315,8 +321,21 @@ impl Reader<'_> {
 
 fn unknown_section(key: &str) -> String {
     let known = [
-        "name", "about", "ground", "bounds", "container", "pool", "sink", "source", "change", "hand", "run",
-        "fluid", "tool", "gate", "mapping",
+        "name",
+        "about",
+        "ground",
+        "bounds",
+        "container",
+        "pool",
+        "sink",
+        "source",
+        "change",
+        "hand",
+        "run",
+        "fluid",
+        "tool",
+        "gate",
+        "mapping",
     ];
     let nearest = known.into_iter().min_by_key(|k| settings::distance(k, key)).unwrap_or("");
     if known.contains(&key) {
@@ -327,7 +346,6 @@ fn unknown_section(key: &str) -> String {
         format!("\"{key}\" is unknown (nearest: \"{nearest}\"); a scene has {}", known.join(", "))
     }
 }
-
 
 #[cfg(test)]
 mod tests;

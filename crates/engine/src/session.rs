@@ -9,7 +9,9 @@ use glam::DVec3;
 use hapflow_devices::{AtEnd, HapticDevice, Motion, NullDevice, Replay, SimulatedHand, TargetScript};
 use hapflow_fluid::{AnalyticJet, BodySample, CpuBackend, FluidBackend, FluidConfig, ParticleView};
 use hapflow_haptics::{FaultSet, Filter, LocalModel, SafetyGate, ToolState};
-use hapflow_realtime::{Clock, LatestReader, LatestWriter, RealtimeStatus, RingConsumer, SharedFlags, latest, ring};
+use hapflow_realtime::{
+    Clock, LatestReader, LatestWriter, RealtimeStatus, RingConsumer, SharedFlags, latest, ring,
+};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -282,7 +284,9 @@ impl Session {
 
     fn start(&mut self, options: SessionOptions) -> Result<(), SceneError> {
         let SessionOptions { servo_drive, fluid_drive, device, clock, .. } = options;
-        if let (Drive::Owned, Some(fluid)) = (fluid_drive, self.fluid.take_if(|_| fluid_drive == Drive::Owned)) {
+        if let (Drive::Owned, Some(fluid)) =
+            (fluid_drive, self.fluid.take_if(|_| fluid_drive == Drive::Owned))
+        {
             self.owned.fluid = Some(FluidThread::start(fluid, Arc::clone(&clock))?);
         }
         if servo_drive == Drive::Owned {
@@ -416,7 +420,10 @@ pub fn open_device(scene: &Scene) -> Result<Box<dyn HapticDevice>, SceneError> {
 }
 
 /// A script's segment, turned from the scene's frame into the device's.
-fn to_device(segment: &hapflow_devices::Segment, place: &impl Fn(DVec3) -> DVec3) -> hapflow_devices::Segment {
+fn to_device(
+    segment: &hapflow_devices::Segment,
+    place: &impl Fn(DVec3) -> DVec3,
+) -> hapflow_devices::Segment {
     use hapflow_devices::Segment;
     match *segment {
         Segment::Hold { duration_s } => Segment::Hold { duration_s },

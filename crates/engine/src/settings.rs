@@ -83,7 +83,8 @@ impl<T> Setting<T> {
     }
 
     pub(crate) fn put(&self, owner: &mut T, path: &str, value: &Value) -> Result<(), SceneError> {
-        let bad = |expected: String| SceneError::BadValue { path: path.into(), value: value.to_string(), expected };
+        let bad =
+            |expected: String| SceneError::BadValue { path: path.into(), value: value.to_string(), expected };
         if !self.fits(value) {
             return Err(bad(self.allowed()));
         }
@@ -184,60 +185,318 @@ const FIXED: bool = false;
 /// Settings of a scene.
 pub const SETTINGS: &[Setting<Scene>] = &[
     number!("run.duration", "s", 0.01..=3600.0, FIXED, run.duration, "Simulated time of a run."),
-    number!("run.fluid_hz", "Hz", 10.0..=1000.0, FIXED, run.fluid_hz, "Fluid frames a second; each gives the servo one new model."),
+    number!(
+        "run.fluid_hz",
+        "Hz",
+        10.0..=1000.0,
+        FIXED,
+        run.fluid_hz,
+        "Fluid frames a second; each gives the servo one new model."
+    ),
     choice!("run.coupling", FIXED, run.coupling, ["direct" => CouplingKind::Direct, "momentum" => CouplingKind::Momentum], "How tool and fluid meet: `direct` leads the tool along the device's path and renders the fluid's mean load; `momentum` is the thesis's baseline."),
-    Setting { path: "run.filter", unit: "", kind: Kind::Text, live: FIXED, about: "What smooths the force: none, bartlett-hann:11@fluid, boxcar:10@servo, butterworth:50@servo, one-euro:5:0.5@servo …; \"auto\" takes the coupling's own.", get: |s| Value::Text(s.run.filter.map_or("auto".into(), |f| f.to_string())), set: set_filter },
+    Setting {
+        path: "run.filter",
+        unit: "",
+        kind: Kind::Text,
+        live: FIXED,
+        about: "What smooths the force: none, bartlett-hann:11@fluid, boxcar:10@servo, butterworth:50@servo, one-euro:5:0.5@servo …; \"auto\" takes the coupling's own.",
+        get: |s| Value::Text(s.run.filter.map_or("auto".into(), |f| f.to_string())),
+        set: set_filter,
+    },
     choice!("run.backend", FIXED, run.backend, ["cpu" => BackendKind::Cpu, "analytic-jet" => BackendKind::AnalyticJet], "Who computes the fluid: particles on the CPU, or jets in closed form."),
     choice!("run.device", FIXED, run.device, ["hand" => DeviceKind::Hand, "replay" => DeviceKind::Replay, "null" => DeviceKind::Null], "What moves the tool: a simulated hand, a recorded motion, or nothing."),
-    Setting { path: "run.motion", unit: "", kind: Kind::Text, live: FIXED, about: "Motion of the replay device: a shipped name or a CSV file (time_s,x_m,y_m,z_m), relative to the tool's start.", get: |s| Value::Text(s.run.motion.clone()), set: |s, v| { s.run.motion = v.text().to_string(); Ok(()) } },
+    Setting {
+        path: "run.motion",
+        unit: "",
+        kind: Kind::Text,
+        live: FIXED,
+        about: "Motion of the replay device: a shipped name or a CSV file (time_s,x_m,y_m,z_m), relative to the tool's start.",
+        get: |s| Value::Text(s.run.motion.clone()),
+        set: |s, v| {
+            s.run.motion = v.text().to_string();
+            Ok(())
+        },
+    },
     choice!("fluid.solver", LIVE, fluid.solver, ["wcsph" => Solver::Wcsph, "muller" => Solver::Muller], "`wcsph`: stiff, with density diffusion and analytic walls; `muller`: the thesis's."),
     choice!("fluid.mode", LIVE, fluid.mode, ["full" => InteractionMode::Full, "none" => InteractionMode::None, "mixed" => InteractionMode::Mixed], "Which particles act on which: all; none (gravity and contacts only); or in every other sub-step."),
-    number!("fluid.spacing", "m", 1e-4..=1.0, LIVE, fluid.spacing, "Rest particle spacing; a particle has the mass rest_density × spacing³. A change resamples the fluid."),
-    Setting { path: "fluid.rest_particles", unit: "1/m³", kind: Kind::Number { min: 1.0, max: 1e12 }, live: LIVE, about: "Rest particles a cubic metre: the thesis's way to say the spacing, 1/spacing³.", get: |s| Value::Number(s.fluid.spacing.powi(-3)), set: |s, v| { s.fluid.spacing = v.number().powf(-1.0 / 3.0); Ok(()) } },
-    number!("fluid.support", "spacings", 0.0..=4.0, LIVE, fluid.support, "Influence radius of a particle; 0 takes the solver's own (wcsph 2.7, muller 2.0), else at least 1.2."),
+    number!(
+        "fluid.spacing",
+        "m",
+        1e-4..=1.0,
+        LIVE,
+        fluid.spacing,
+        "Rest particle spacing; a particle has the mass rest_density × spacing³. A change resamples the fluid."
+    ),
+    Setting {
+        path: "fluid.rest_particles",
+        unit: "1/m³",
+        kind: Kind::Number { min: 1.0, max: 1e12 },
+        live: LIVE,
+        about: "Rest particles a cubic metre: the thesis's way to say the spacing, 1/spacing³.",
+        get: |s| Value::Number(s.fluid.spacing.powi(-3)),
+        set: |s, v| {
+            s.fluid.spacing = v.number().powf(-1.0 / 3.0);
+            Ok(())
+        },
+    },
+    number!(
+        "fluid.support",
+        "spacings",
+        0.0..=4.0,
+        LIVE,
+        fluid.support,
+        "Influence radius of a particle; 0 takes the solver's own (wcsph 2.7, muller 2.0), else at least 1.2."
+    ),
     number!("fluid.rest_density", "kg/m³", 1e-3..=1e5, LIVE, fluid.rest_density, "Density at rest."),
-    number!("fluid.viscosity", "Pa·s", 0.0..=1e4, LIVE, fluid.viscosity, "Dynamic viscosity: water 0.001, oil 0.1, glycerine 1.4, honey 10. The solver's artificial viscosity comes on top."),
-    number!("fluid.artificial_viscosity", "", 0.0..=1.0, LIVE, fluid.artificial_viscosity, "α: what the solver adds for stability, kinematic viscosity α c H/20 (muller: eight times that)."),
-    number!("fluid.surface_tension", "N/m", 0.0..=10.0, LIVE, fluid.surface_tension, "Surface tension of muller; water 0.072. At 0 it is not computed."),
-    number!("fluid.stiffness", "m²/s²", 0.0..=1e5, LIVE, fluid.stiffness, "k of muller's p = k(ρ − ρ₀): the higher, the less compressible and the finer the steps."),
-    number!("fluid.cohesion", "", 0.0..=1.0, LIVE, fluid.cohesion, "Share of muller's negative pressure that is kept: 1 as the thesis writes it, 0 for free surfaces that stay calm."),
-    number!("fluid.sound_speed", "m/s", 0.0..=2000.0, LIVE, fluid.sound_speed, "Speed of sound of wcsph; 0 takes ten times the highest speed that the scene can give."),
-    number!("fluid.density_diffusion", "", 0.0..=0.3, LIVE, fluid.density_diffusion, "δ of wcsph: smooths the pressure."),
-    number!("fluid.acoustic_damping", "c dx", 0.0..=1.0, LIVE, fluid.acoustic_damping, "ζ of wcsph: takes sound out."),
+    number!(
+        "fluid.viscosity",
+        "Pa·s",
+        0.0..=1e4,
+        LIVE,
+        fluid.viscosity,
+        "Dynamic viscosity: water 0.001, oil 0.1, glycerine 1.4, honey 10. The solver's artificial viscosity comes on top."
+    ),
+    number!(
+        "fluid.artificial_viscosity",
+        "",
+        0.0..=1.0,
+        LIVE,
+        fluid.artificial_viscosity,
+        "α: what the solver adds for stability, kinematic viscosity α c H/20 (muller: eight times that)."
+    ),
+    number!(
+        "fluid.surface_tension",
+        "N/m",
+        0.0..=10.0,
+        LIVE,
+        fluid.surface_tension,
+        "Surface tension of muller; water 0.072. At 0 it is not computed."
+    ),
+    number!(
+        "fluid.stiffness",
+        "m²/s²",
+        0.0..=1e5,
+        LIVE,
+        fluid.stiffness,
+        "k of muller's p = k(ρ − ρ₀): the higher, the less compressible and the finer the steps."
+    ),
+    number!(
+        "fluid.cohesion",
+        "",
+        0.0..=1.0,
+        LIVE,
+        fluid.cohesion,
+        "Share of muller's negative pressure that is kept: 1 as the thesis writes it, 0 for free surfaces that stay calm."
+    ),
+    number!(
+        "fluid.sound_speed",
+        "m/s",
+        0.0..=2000.0,
+        LIVE,
+        fluid.sound_speed,
+        "Speed of sound of wcsph; 0 takes ten times the highest speed that the scene can give."
+    ),
+    number!(
+        "fluid.density_diffusion",
+        "",
+        0.0..=0.3,
+        LIVE,
+        fluid.density_diffusion,
+        "δ of wcsph: smooths the pressure."
+    ),
+    number!(
+        "fluid.acoustic_damping",
+        "c dx",
+        0.0..=1.0,
+        LIVE,
+        fluid.acoustic_damping,
+        "ζ of wcsph: takes sound out."
+    ),
     number!("fluid.damping", "1/s", 0.0..=1000.0, LIVE, fluid.damping, "Rate at which all velocities decay."),
-    number!("fluid.max_displacement", "m", 0.0..=10.0, LIVE, fluid.max_displacement, "Farthest that a particle may go in one fluid frame; 0 sets no cap."),
-    number!("fluid.lifetime", "s", 0.0..=1e6, LIVE, fluid.lifetime, "Age at which a particle vanishes; 0 keeps it."),
-    integer!("fluid.max_particles", 1.0..=5e6, fluid.max_particles, "Most particles at once; sources wait while it is reached."),
-    integer!("fluid.max_substeps", 1.0..=1e5, fluid.max_substeps, "Most sub-steps a frame; settings that need more are refused."),
+    number!(
+        "fluid.max_displacement",
+        "m",
+        0.0..=10.0,
+        LIVE,
+        fluid.max_displacement,
+        "Farthest that a particle may go in one fluid frame; 0 sets no cap."
+    ),
+    number!(
+        "fluid.lifetime",
+        "s",
+        0.0..=1e6,
+        LIVE,
+        fluid.lifetime,
+        "Age at which a particle vanishes; 0 keeps it."
+    ),
+    integer!(
+        "fluid.max_particles",
+        1.0..=5e6,
+        fluid.max_particles,
+        "Most particles at once; sources wait while it is reached."
+    ),
+    integer!(
+        "fluid.max_substeps",
+        1.0..=1e5,
+        fluid.max_substeps,
+        "Most sub-steps a frame; settings that need more are refused."
+    ),
     vector!("fluid.gravity", "m/s²", -100.0..=100.0, LIVE, fluid.gravity, "Acceleration of gravity."),
-    number!("fluid.restitution", "", 0.0..=1.0, LIVE, fluid.restitution, "Share of the normal velocity that a particle keeps in a contact by impulse (muller, mode none)."),
-    flag!("fluid.two_way", fluid.two_way, "true: fluid and tool push each other; false: the tool pushes the fluid and feels nothing."),
+    number!(
+        "fluid.restitution",
+        "",
+        0.0..=1.0,
+        LIVE,
+        fluid.restitution,
+        "Share of the normal velocity that a particle keeps in a contact by impulse (muller, mode none)."
+    ),
+    flag!(
+        "fluid.two_way",
+        fluid.two_way,
+        "true: fluid and tool push each other; false: the tool pushes the fluid and feels nothing."
+    ),
     choice!("tool.shape", FIXED, tool.shape, ["sphere" => ToolShape::Sphere, "disc" => ToolShape::Disc], "Shape of the tool; a disc lies flat, its axis up."),
     number!("tool.radius", "m", 1e-3..=0.5, LIVE, tool.radius, "Radius of the tool."),
     number!("tool.thickness", "m", 1e-3..=0.5, LIVE, tool.thickness, "Thickness of a disc."),
-    number!("tool.mass", "kg", 1e-3..=100.0, LIVE, tool.mass, "Mass of the tool's body in the fluid (coupling momentum)."),
-    number!("tool.collision_response", "", 0.0..=1.0, LIVE, tool.collision_response, "C_R: share of the fluid's impulse that the body takes (coupling momentum)."),
+    number!(
+        "tool.mass",
+        "kg",
+        1e-3..=100.0,
+        LIVE,
+        tool.mass,
+        "Mass of the tool's body in the fluid (coupling momentum)."
+    ),
+    number!(
+        "tool.collision_response",
+        "",
+        0.0..=1.0,
+        LIVE,
+        tool.collision_response,
+        "C_R: share of the fluid's impulse that the body takes (coupling momentum)."
+    ),
     vector!("tool.position", "m", -10.0..=10.0, FIXED, tool.position, "Where the tool starts."),
-    number!("tool.force_scale", "", 0.0..=1000.0, LIVE, tool.force_scale, "Factor on the fluid's force before filter and gate."),
+    number!(
+        "tool.force_scale",
+        "",
+        0.0..=1000.0,
+        LIVE,
+        tool.force_scale,
+        "Factor on the fluid's force before filter and gate."
+    ),
     number!("gate.max_force", "N", 0.0..=50.0, LIVE, gate.max_force_n, "Largest force that leaves."),
     number!("gate.max_torque", "N·m", 0.0..=5.0, LIVE, gate.max_torque_nm, "Largest torque that leaves."),
     number!("gate.max_slew", "N/s", 1.0..=1e6, LIVE, gate.max_slew_n_per_s, "Fastest change of the force."),
-    number!("gate.max_torque_slew", "N·m/s", 0.01..=1e5, LIVE, gate.max_torque_slew_nm_per_s, "Fastest change of the torque."),
-    number!("gate.ramp_in", "s", 0.0..=10.0, LIVE, gate.ramp_in_s, "Time in which the force comes up at a start or after a fault."),
-    number!("gate.stale_hold", "frames", 1.0..=1000.0, LIVE, gate.stale_hold_frames, "Age of the fluid's data above which the force fades."),
+    number!(
+        "gate.max_torque_slew",
+        "N·m/s",
+        0.01..=1e5,
+        LIVE,
+        gate.max_torque_slew_nm_per_s,
+        "Fastest change of the torque."
+    ),
+    number!(
+        "gate.ramp_in",
+        "s",
+        0.0..=10.0,
+        LIVE,
+        gate.ramp_in_s,
+        "Time in which the force comes up at a start or after a fault."
+    ),
+    number!(
+        "gate.stale_hold",
+        "frames",
+        1.0..=1000.0,
+        LIVE,
+        gate.stale_hold_frames,
+        "Age of the fluid's data above which the force fades."
+    ),
     number!("gate.stale_fade", "s", 0.0..=10.0, LIVE, gate.stale_fade_s, "Time in which it fades."),
-    number!("mapping.scale", "", 1e-3..=1000.0, FIXED, mapping.scale, "Scene metres a device metre; the hand feels every impedance that many times."),
-    Setting { path: "mapping.axes", unit: "", kind: Kind::Text, live: FIXED, about: "Scene axes in device axes, such as \"x y z\" or \"-z y x\"; right-handed.", get: |s| Value::Text(s.mapping.axes.clone()), set: |s, v| { s.mapping.axes = v.text().to_string(); Ok(()) } },
-    vector!("mapping.offset", "m", -10.0..=10.0, FIXED, mapping.offset, "Where the device's origin is in the scene."),
-    number!("mapping.rim_radius", "m", 0.0..=10.0, FIXED, mapping.rim_radius, "Radius of the device's workspace, behind which a soft rim pushes back; 0 has none."),
-    number!("mapping.rim_stiffness", "N/m", 0.0..=2000.0, FIXED, mapping.rim_stiffness, "Stiffness of the rim."),
-    number!("hand.device_mass", "kg", 1e-3..=100.0, FIXED, hand.device_mass_kg, "Mass of the simulated device."),
-    number!("hand.device_damping", "N·s/m", 0.0..=1000.0, FIXED, hand.device_damping_n_s_per_m, "Damping of the simulated device."),
+    number!(
+        "mapping.scale",
+        "",
+        1e-3..=1000.0,
+        FIXED,
+        mapping.scale,
+        "Scene metres a device metre; the hand feels every impedance that many times."
+    ),
+    Setting {
+        path: "mapping.axes",
+        unit: "",
+        kind: Kind::Text,
+        live: FIXED,
+        about: "Scene axes in device axes, such as \"x y z\" or \"-z y x\"; right-handed.",
+        get: |s| Value::Text(s.mapping.axes.clone()),
+        set: |s, v| {
+            s.mapping.axes = v.text().to_string();
+            Ok(())
+        },
+    },
+    vector!(
+        "mapping.offset",
+        "m",
+        -10.0..=10.0,
+        FIXED,
+        mapping.offset,
+        "Where the device's origin is in the scene."
+    ),
+    number!(
+        "mapping.rim_radius",
+        "m",
+        0.0..=10.0,
+        FIXED,
+        mapping.rim_radius,
+        "Radius of the device's workspace, behind which a soft rim pushes back; 0 has none."
+    ),
+    number!(
+        "mapping.rim_stiffness",
+        "N/m",
+        0.0..=2000.0,
+        FIXED,
+        mapping.rim_stiffness,
+        "Stiffness of the rim."
+    ),
+    number!(
+        "hand.device_mass",
+        "kg",
+        1e-3..=100.0,
+        FIXED,
+        hand.device_mass_kg,
+        "Mass of the simulated device."
+    ),
+    number!(
+        "hand.device_damping",
+        "N·s/m",
+        0.0..=1000.0,
+        FIXED,
+        hand.device_damping_n_s_per_m,
+        "Damping of the simulated device."
+    ),
     number!("hand.mass", "kg", 0.0..=100.0, FIXED, hand.hand_mass_kg, "Mass of the simulated hand."),
-    number!("hand.damping", "N·s/m", 0.0..=1000.0, FIXED, hand.hand_damping_n_s_per_m, "Damping of its grip."),
+    number!(
+        "hand.damping",
+        "N·s/m",
+        0.0..=1000.0,
+        FIXED,
+        hand.hand_damping_n_s_per_m,
+        "Damping of its grip."
+    ),
     number!("hand.stiffness", "N/m", 0.0..=1e5, FIXED, hand.hand_stiffness_n_per_m, "Stiffness of its grip."),
-    number!("hand.encoder_step", "m", 0.0..=0.01, FIXED, hand.encoder_step_m, "Step of the simulated device's encoders; 0 is exact."),
-    number!("hand.velocity_cutoff", "Hz", 1.0..=400.0, FIXED, hand.velocity_cutoff_hz, "Cutoff of its velocity estimate."),
+    number!(
+        "hand.encoder_step",
+        "m",
+        0.0..=0.01,
+        FIXED,
+        hand.encoder_step_m,
+        "Step of the simulated device's encoders; 0 is exact."
+    ),
+    number!(
+        "hand.velocity_cutoff",
+        "Hz",
+        1.0..=400.0,
+        FIXED,
+        hand.velocity_cutoff_hz,
+        "Cutoff of its velocity estimate."
+    ),
 ];
 
 /// Settings of a source, addressed as `source.NAME.…`.

@@ -31,11 +31,8 @@ pub fn low_pass(series: &[DVec3], cutoff_hz: f64, rate_hz: f64) -> Vec<DVec3> {
 fn biquad(series: &mut [DVec3], cutoff_hz: f64, rate_hz: f64) {
     let k = (PI * cutoff_hz / rate_hz).tan();
     let norm = 1.0 / (1.0 + std::f64::consts::SQRT_2 * k + k * k);
-    let (b0, a1, a2) = (
-        k * k * norm,
-        2.0 * (k * k - 1.0) * norm,
-        (1.0 - std::f64::consts::SQRT_2 * k + k * k) * norm,
-    );
+    let (b0, a1, a2) =
+        (k * k * norm, 2.0 * (k * k - 1.0) * norm, (1.0 - std::f64::consts::SQRT_2 * k + k * k) * norm);
     let Some(&first) = series.first() else { return };
     // It starts as if the first value had been there for ever.
     let (mut x1, mut x2, mut y1, mut y2) = (first, first, first, first);

@@ -1,8 +1,8 @@
 //! The threads that a session owns, in real time.
 
+use crate::SceneError;
 use crate::fluid_unit::FluidUnit;
 use crate::servo::ServoUnit;
-use crate::SceneError;
 use hapflow_devices::HapticDevice;
 use hapflow_haptics::{FaultSet, GatedWrench};
 use hapflow_realtime::{
@@ -76,8 +76,9 @@ impl ServoThread {
     ) -> Result<Self, SceneError> {
         let stop = Arc::new(AtomicBool::new(false));
         let theirs = Arc::clone(&stop);
-        let thread = spawn_realtime("hapflow-servo", PRIORITY, move || servo_loop(servo, device, &*clock, &theirs))
-            .map_err(|cause| SceneError::Thread { name: "servo", cause })?;
+        let thread =
+            spawn_realtime("hapflow-servo", PRIORITY, move || servo_loop(servo, device, &*clock, &theirs))
+                .map_err(|cause| SceneError::Thread { name: "servo", cause })?;
         let status = thread.status().clone();
         Ok(Self { stop, thread: Some(thread), status })
     }
@@ -200,7 +201,12 @@ fn fluid_thread(mut fluid: FluidUnit, clock: &dyn Clock, stop: &AtomicBool, pace
     }
 }
 
-fn fluid_loop(fluid: &mut FluidUnit, clock: &dyn Clock, stop: &AtomicBool, mut pace: LatestWriter<FluidPace>) {
+fn fluid_loop(
+    fluid: &mut FluidUnit,
+    clock: &dyn Clock,
+    stop: &AtomicBool,
+    mut pace: LatestWriter<FluidPace>,
+) {
     let period = (fluid.frame_s() * 1e9) as u64;
     let mut so_far = FluidPace::default();
     let mut end = clock.now_ns() + period;

@@ -44,7 +44,8 @@ fn covered(a: f64, b: f64, d: f64) -> f64 {
     if d <= (a - b).abs() {
         return PI * a.min(b).powi(2);
     }
-    let angle = |r: f64, other: f64| ((d * d + r * r - other * other) / (2.0 * d * r)).clamp(-1.0, 1.0).acos();
+    let angle =
+        |r: f64, other: f64| ((d * d + r * r - other * other) / (2.0 * d * r)).clamp(-1.0, 1.0).acos();
     let segment = |r: f64, half: f64| r * r * (half - half.sin() * half.cos());
     segment(a, angle(a, b)) + segment(b, angle(b, a))
 }

@@ -47,7 +47,9 @@ pub enum FluidError {
         spacing: f64,
     },
     /// More particles than allowed.
-    #[error("the pools hold {needed} particles and fluid.max_particles allows {allowed}; raise it or fluid.spacing")]
+    #[error(
+        "the pools hold {needed} particles and fluid.max_particles allows {allowed}; raise it or fluid.spacing"
+    )]
     TooManyParticles {
         /// Particles wanted.
         needed: usize,

@@ -232,7 +232,6 @@ impl BodyNow {
             arm,
         })
     }
-
 }
 
 /// One wall table a body, made when the support or the shape changes.

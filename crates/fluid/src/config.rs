@@ -246,7 +246,12 @@ impl FluidConfig {
     fn floor_height(&self) -> f64 {
         let bounds = self.world.bounds.min.y;
         let container = self.world.container.map(|c| c.inner.min.y);
-        [self.world.ground, container].into_iter().flatten().fold(f64::INFINITY, f64::min).min(1e9).max(bounds)
+        [self.world.ground, container]
+            .into_iter()
+            .flatten()
+            .fold(f64::INFINITY, f64::min)
+            .min(1e9)
+            .max(bounds)
     }
 
     /// Speed of sound of the solver, m/s.

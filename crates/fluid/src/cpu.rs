@@ -179,8 +179,12 @@ impl Fluid {
         if new.settings.spacing != old.settings.spacing {
             self.resample(old.settings.spacing, new);
         }
-        let switched_on = old.settings.mode == InteractionMode::None && new.settings.mode != InteractionMode::None;
-        if switched_on || new.settings.solver != old.settings.solver || new.settings.spacing != old.settings.spacing {
+        let switched_on =
+            old.settings.mode == InteractionMode::None && new.settings.mode != InteractionMode::None;
+        if switched_on
+            || new.settings.solver != old.settings.solver
+            || new.settings.spacing != old.settings.spacing
+        {
             self.particles.p.fill(0.0);
             self.particles.slow.fill(0.0);
             self.forgive = true;
@@ -189,12 +193,19 @@ impl Fluid {
 
     /// Replaces the particles by others of another spacing that fill the same room with the same motion.
     fn resample(&mut self, old_spacing: f64, new: &FluidConfig) {
-        let born = pools::resample(&self.particles, old_spacing, new.settings.spacing, new.settings.max_particles);
+        let born =
+            pools::resample(&self.particles, old_spacing, new.settings.spacing, new.settings.max_particles);
         self.particles = Particles::new();
         self.particles.extend(&born);
     }
 
-    fn frame(&mut self, config: &FluidConfig, arch: pulp::Arch, frame: &FrameInput<'_>, output: &mut FrameOutput) {
+    fn frame(
+        &mut self,
+        config: &FluidConfig,
+        arch: pulp::Arch,
+        frame: &FrameInput<'_>,
+        output: &mut FrameOutput,
+    ) {
         let speed = f64::from(self.max_speed).max(config.reference_speed()).max(self.tool_speed(frame));
         let needed = limits::substeps(config, frame.duration, speed);
         let steps = needed.min(config.settings.max_substeps);

@@ -22,7 +22,15 @@ pub(crate) struct Emitter {
 impl Emitter {
     /// Emits what `source` owes after `dt` seconds ending at time `t`, into `out`; at most `room` particles.
     /// The volume of a layer's particles is exactly the flow over the layer's time.
-    pub fn emit(&mut self, source: &Source, spacing: f64, t: f64, dt: f64, room: usize, out: &mut Vec<Newborn>) {
+    pub fn emit(
+        &mut self,
+        source: &Source,
+        spacing: f64,
+        t: f64,
+        dt: f64,
+        room: usize,
+        out: &mut Vec<Newborn>,
+    ) {
         if !source.runs_at(t) || source.flow() <= 0.0 {
             return;
         }
@@ -38,7 +46,14 @@ impl Emitter {
         self.owed = self.owed.min(layer);
     }
 
-    fn emit_layer(&mut self, source: &Source, spacing: f64, points: usize, travelled: f64, out: &mut Vec<Newborn>) {
+    fn emit_layer(
+        &mut self,
+        source: &Source,
+        spacing: f64,
+        points: usize,
+        travelled: f64,
+        out: &mut Vec<Newborn>,
+    ) {
         let axis = source.direction.normalize_or(DVec3::NEG_Y);
         let (across, along) = axis.any_orthonormal_pair();
         let turn = (self.layers as f64 * GOLDEN_ANGLE) % TAU;

@@ -105,7 +105,9 @@ mod tests {
             let r = 0.01 * f64::from(k);
             let numeric = |w: fn(f64, f64) -> f64| (w(r + e, h) - w(r - e, h)) / (2.0 * e);
             assert!((numeric(poly6) / r - poly6_slope_over_r(r, h)).abs() < 1e-3 * poly6(0.0, h) / h / h);
-            assert!((numeric(wendland) / r - wendland_slope_over_r(r, h)).abs() < 1e-3 * wendland(0.0, h) / h / h);
+            assert!(
+                (numeric(wendland) / r - wendland_slope_over_r(r, h)).abs() < 1e-3 * wendland(0.0, h) / h / h
+            );
             let second = (poly6(r + 1e-4, h) - 2.0 * poly6(r, h) + poly6(r - 1e-4, h)) / 1e-8;
             let laplacian = second + 2.0 * poly6_slope_over_r(r, h);
             assert!((laplacian - poly6_laplacian(r, h)).abs() < 1e-3 * poly6(0.0, h) / h / h);

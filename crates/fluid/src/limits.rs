@@ -57,5 +57,11 @@ pub(crate) fn check_substeps(config: &FluidConfig) -> Result<(), FluidError> {
         return Ok(());
     }
     let cause = if limits.viscous < limits.cfl { "fluid.viscosity" } else { "the speed of sound" };
-    Err(FluidError::TooStiff { cause, needed, allowed, frame_hz: config.frame_hz, spacing: config.settings.spacing })
+    Err(FluidError::TooStiff {
+        cause,
+        needed,
+        allowed,
+        frame_hz: config.frame_hz,
+        spacing: config.settings.spacing,
+    })
 }

@@ -144,7 +144,8 @@ mod tests {
     #[test]
     fn permute_moves_whole_rows_and_drops_the_rest() {
         let mut p = Particles::new();
-        let born = |k: f32| Newborn { position: Vec3::splat(k), velocity: -Vec3::splat(k), ..Newborn::default() };
+        let born =
+            |k: f32| Newborn { position: Vec3::splat(k), velocity: -Vec3::splat(k), ..Newborn::default() };
         p.extend(&[born(0.0), born(1.0), born(2.0)]);
         p.permute(&[2, 0]);
         assert_eq!(p.len(), 2);

@@ -13,7 +13,8 @@ const JITTER: f32 = 0.02;
 /// The pools of `config`, at rest under hydrostatic pressure, without what the bodies take up.
 pub(crate) fn fill(config: &FluidConfig) -> Result<Vec<Newborn>, FluidError> {
     let spacing = config.settings.spacing;
-    let wanted: f64 = config.world.pools.iter().map(|b| lattice(b, spacing).0.as_dvec3().element_product()).sum();
+    let wanted: f64 =
+        config.world.pools.iter().map(|b| lattice(b, spacing).0.as_dvec3().element_product()).sum();
     let (needed, allowed) = (wanted as usize, config.settings.max_particles);
     if needed > allowed {
         return Err(FluidError::TooManyParticles { needed, allowed });
@@ -28,7 +29,11 @@ pub(crate) fn fill(config: &FluidConfig) -> Result<Vec<Newborn>, FluidError> {
             let jitter = Vec3::new(random.next(), random.next(), random.next()) * JITTER * spacing as f32;
             let position = (pool.min + point * step).as_vec3() + jitter;
             if free(position) {
-                out.push(Newborn { position, pressure: hydrostatic(config, pool, position), ..Newborn::default() });
+                out.push(Newborn {
+                    position,
+                    pressure: hydrostatic(config, pool, position),
+                    ..Newborn::default()
+                });
             }
         }
     }
@@ -92,11 +97,13 @@ pub(crate) fn resample(old: &Particles, old_spacing: f64, spacing: f64, most: us
         }
     }
     let filled = field.iter().filter(|(_, (weight, _))| *weight > 0.5).take(most);
-    filled.map(|(key, (weight, momentum))| Newborn {
-        position: ((glam::IVec3::from(*key).as_dvec3() + 0.5) * spacing).as_vec3(),
-        velocity: (*momentum / *weight).as_vec3(),
-        ..Newborn::default()
-    }).collect()
+    filled
+        .map(|(key, (weight, momentum))| Newborn {
+            position: ((glam::IVec3::from(*key).as_dvec3() + 0.5) * spacing).as_vec3(),
+            velocity: (*momentum / *weight).as_vec3(),
+            ..Newborn::default()
+        })
+        .collect()
 }
 
 fn cube(reach: i32) -> impl Iterator<Item = glam::IVec3> {

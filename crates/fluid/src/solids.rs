@@ -1,8 +1,8 @@
 //! All solid surfaces round a particle: ground, container and bodies, behind one visit.
 
+use crate::World;
 use crate::body::{BodyNow, BodyTables, Contact};
 use crate::wall::{WallTable, WallTerms};
-use crate::World;
 use glam::Vec3;
 
 /// Ground and container, in f32.
@@ -30,8 +30,12 @@ impl Walls {
         if let Some((min, max)) = self.container
             && p.y < max.y
         {
-            let sides =
-                [(p.x - min.x, Vec3::X), (max.x - p.x, -Vec3::X), (p.z - min.z, Vec3::Z), (max.z - p.z, -Vec3::Z)];
+            let sides = [
+                (p.x - min.x, Vec3::X),
+                (max.x - p.x, -Vec3::X),
+                (p.z - min.z, Vec3::Z),
+                (max.z - p.z, -Vec3::Z),
+            ];
             if sides.iter().all(|s| s.0 > -self.half) {
                 visit_inside(p.y - min.y, &sides, margin, meet);
             } else if p.y > min.y {

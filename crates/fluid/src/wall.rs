@@ -131,7 +131,8 @@ mod tests {
     #[test]
     fn a_huge_sphere_is_a_plane() {
         let h = 0.01;
-        let (plane, sphere) = (WallTable::plane(h), WallTable::for_shape(&Shape::Sphere { radius: 100.0 }, h));
+        let (plane, sphere) =
+            (WallTable::plane(h), WallTable::for_shape(&Shape::Sphere { radius: 100.0 }, h));
         for k in -4..10 {
             let d = 0.001 * k as f32;
             assert!((plane.at(d).volume - sphere.at(d).volume).abs() < 1e-3);

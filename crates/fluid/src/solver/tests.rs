@@ -21,7 +21,8 @@ fn config(solver: Solver) -> FluidConfig {
         pools: vec![Aabb { min: DVec3::ZERO, max: DVec3::splat(0.1) }],
         bodies: vec![],
     };
-    let settings = FluidSettings { solver, viscosity: 0.3, surface_tension: 0.07, ..FluidSettings::default() };
+    let settings =
+        FluidSettings { solver, viscosity: 0.3, surface_tension: 0.07, ..FluidSettings::default() };
     FluidConfig { settings, world, frame_hz: 60.0, threads: 1 }
 }
 
@@ -56,7 +57,10 @@ fn twins(p: &Particles, density: impl Fn(usize) -> f64) -> Vec<Twin> {
 }
 
 /// Sorted cloud and a pass over it on each kind of processor at hand.
-fn each_pass(config: &FluidConfig, check: impl Fn(&mut Particles, &Grid, &dyn Fn(&Particles, &Grid, &dyn Fn(Pass<'_>)))) {
+fn each_pass(
+    config: &FluidConfig,
+    check: impl Fn(&mut Particles, &Grid, &dyn Fn(&Particles, &Grid, &dyn Fn(Pass<'_>))),
+) {
     let support = config.settings.support_length();
     for arch in [pulp::Arch::Scalar, pulp::Arch::new()] {
         let (mut particles, mut grid) = (cloud(config.settings.spacing as f32), Grid::default());
