@@ -1,4 +1,5 @@
 //! hapflow lets a hand feel a fluid. This crate gathers the rooms of the house under one roof.
+#![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
 pub use hapflow_devices as devices;

@@ -1,8 +1,7 @@
 //! `hapflow scenes` and `hapflow devices`.
 
-use hapflow_engine::settings::{SETTINGS, SOURCE_SETTINGS, Setting};
-use hapflow_engine::{Scene, load, shipped};
-use hapflow_fluid::Source;
+use hapflow_engine::settings::table as settings_table;
+use hapflow_engine::{load, shipped};
 use std::io::Write;
 
 /// Prints a line; a closed pipe is no reason to fail.
@@ -13,7 +12,7 @@ fn say(line: &str) {
 /// Lists the shipped scenes, or all settings.
 pub fn scenes(settings: bool) {
     if settings {
-        return all_settings();
+        return say(&settings_table());
     }
     for (name, _) in shipped() {
         if let Ok(scene) = load(name) {
@@ -21,34 +20,6 @@ pub fn scenes(settings: bool) {
         }
     }
     say("\nRun one with `hapflow run NAME`, or a TOML file of your own with `hapflow run FILE`.");
-}
-
-fn all_settings() {
-    say("| setting | default | allowed | live | what it does |");
-    say("|---|---|---|---|---|");
-    let scene = Scene::default();
-    for setting in SETTINGS {
-        row(setting, &scene, setting.path.to_string());
-    }
-    let source = Source {
-        name: "NAME".into(),
-        position: glam::DVec3::ZERO,
-        direction: glam::DVec3::NEG_Y,
-        diameter: 0.02,
-        speed: 1.0,
-        on: true,
-        period: 0.0,
-        duty: 1.0,
-    };
-    for setting in SOURCE_SETTINGS {
-        row(setting, &source, format!("source.NAME.{}", setting.path));
-    }
-}
-
-fn row<T>(setting: &Setting<T>, owner: &T, path: String) {
-    let live = if setting.live { "yes" } else { "no" };
-    let (value, allowed) = (setting.get(owner), setting.allowed());
-    say(&format!("| {path} | {value} | {allowed} | {live} | {} |", setting.about.replace('|', "\\|")));
 }
 
 /// Lists the devices.

@@ -48,6 +48,8 @@ pub struct FluidUnit {
     /// A sample that belongs to the next frame.
     pub(crate) ahead: Option<PathSample>,
     pub(crate) last: PathSample,
+    /// Where the last frame's path ended, m.
+    pub(crate) path_end: DVec3,
 }
 
 impl std::fmt::Debug for FluidUnit {
@@ -154,7 +156,21 @@ impl FluidUnit {
         }
         let end = self.tool_at(end_s);
         self.samples.push(sample(end_s, &end));
+        self.join_path(end_s);
         end
+    }
+
+    /// Makes the path begin where the last frame's ended. They differ when frames were skipped: then the way
+    /// between is spread over this frame, for a jump would strike the fluid.
+    fn join_path(&mut self, end_s: f64) {
+        let Some(first) = self.samples.first().copied() else { return };
+        let gap = self.path_end - first.position;
+        for sample in &mut self.samples {
+            let left = ((end_s - sample.time) / self.frame_s).clamp(0.0, 1.0);
+            sample.position += gap * left;
+            sample.velocity -= gap / self.frame_s;
+        }
+        self.path_end = self.samples.last().map_or(self.path_end, |s| s.position);
     }
 
     /// The tool at `time_s`, carried on from its newest sample by at most two frames.

@@ -182,16 +182,7 @@ impl Reader<'_> {
         let DeValue::Table(table) = item.get_ref() else {
             return self.wrong(item, "source must be a table: [[source]]");
         };
-        let mut source = Source {
-            name: index.to_string(),
-            position: DVec3::ZERO,
-            direction: DVec3::NEG_Y,
-            diameter: 0.02,
-            speed: 1.0,
-            on: true,
-            period: 0.0,
-            duty: 1.0,
-        };
+        let mut source = Source { name: index.to_string(), ..Source::default() };
         for (name, value) in table {
             let field = name.get_ref().as_ref();
             if field == "name" {

@@ -267,6 +267,7 @@ impl Session {
             samples: Vec::with_capacity(2050),
             ahead: None,
             last: start_sample(scene.tool.position),
+            path_end: scene.tool.position,
         };
         let mut session = Self {
             shared,

@@ -179,7 +179,9 @@ macro_rules! choice {
     };
 }
 
+/// May change while a session runs.
 const LIVE: bool = true;
+/// Holds for a whole session.
 const FIXED: bool = false;
 
 /// Settings of a scene.
@@ -233,7 +235,7 @@ pub const SETTINGS: &[Setting<Scene>] = &[
         kind: Kind::Number { min: 1.0, max: 1e12 },
         live: LIVE,
         about: "Rest particles a cubic metre: the thesis's way to say the spacing, 1/spacing³.",
-        get: |s| Value::Number(s.fluid.spacing.powi(-3)),
+        get: |s| Value::Number((s.fluid.spacing.powi(-3) * 1e3).round() / 1e3),
         set: |s, v| {
             s.fluid.spacing = v.number().powf(-1.0 / 3.0);
             Ok(())
@@ -509,6 +511,26 @@ pub const SOURCE_SETTINGS: &[Setting<Source>] = &[
     number!("period", "s", 0.0..=1000.0, LIVE, period, "Period of an intermittent jet; 0 runs steadily."),
     number!("duty", "", 0.0..=1.0, LIVE, duty, "Share of the period in which it runs."),
 ];
+
+/// Every setting as a table in Markdown: path, default, what it may be, whether it is live, what it does.
+pub fn table() -> String {
+    let mut text = String::from("| setting | default | allowed | live | what it does |\n|---|---|---|---|---|\n");
+    let scene = Scene::default();
+    for setting in SETTINGS {
+        text += &row(setting, &scene, setting.path);
+    }
+    let source = Source::default();
+    for setting in SOURCE_SETTINGS {
+        text += &row(setting, &source, &format!("source.NAME.{}", setting.path));
+    }
+    text
+}
+
+fn row<T>(setting: &Setting<T>, owner: &T, path: &str) -> String {
+    let live = if setting.live { "yes" } else { "no" };
+    let (value, allowed) = (setting.get(owner), setting.allowed());
+    format!("| {path} | {value} | {allowed} | {live} | {} |\n", setting.about.replace('|', "\\|"))
+}
 
 fn set_filter(scene: &mut Scene, value: &Value) -> Result<(), String> {
     scene.run.filter = match value.text() {

@@ -173,6 +173,22 @@ pub struct Source {
     pub duty: f64,
 }
 
+impl Default for Source {
+    /// A steady jet of 20 mm straight down at 1 m/s, from the origin.
+    fn default() -> Self {
+        Self {
+            name: "0".into(),
+            position: DVec3::ZERO,
+            direction: DVec3::NEG_Y,
+            diameter: 0.02,
+            speed: 1.0,
+            on: true,
+            period: 0.0,
+            duty: 1.0,
+        }
+    }
+}
+
 impl Source {
     /// Volume flow while it runs, m³/s.
     pub fn flow(&self) -> f64 {
