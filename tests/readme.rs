@@ -5,7 +5,10 @@ const README: &str = include_str!("../README.md");
 #[test]
 fn the_settings_table_is_the_engines() {
     for line in hapflow::engine::settings::table().lines() {
-        assert!(README.contains(line), "README lacks: {line}\nrun `hapflow scenes --settings` and paste its table");
+        assert!(
+            README.contains(line),
+            "README lacks: {line}\nrun `hapflow scenes --settings` and paste its table"
+        );
     }
 }
 

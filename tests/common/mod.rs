@@ -1,5 +1,5 @@
 //! What the tests share: small scenes.
-#![allow(dead_code)]
+#![allow(dead_code, clippy::unwrap_used)]
 
 use hapflow::engine::{Scene, Session, SessionOptions, Value, parse, settings};
 

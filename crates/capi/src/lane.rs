@@ -78,20 +78,11 @@ impl<T> Lane<T> {
         }
         let empty = word(expected, SHUT);
         let mut pause = Pause::default();
-        while self.word.compare_exchange(empty, empty | ALONE, Ordering::Acquire, Ordering::Relaxed).is_err() {
+        while self.word.compare_exchange(empty, empty | ALONE, Ordering::Acquire, Ordering::Relaxed).is_err()
+        {
             pause.wait();
         }
         Ok(Claimed { lane: self })
-    }
-
-    /// The content, while nobody can be dropping it.
-    ///
-    /// # Safety
-    /// The caller has raised `ALONE` or its count of sharers.
-    unsafe fn inside(&self) -> Option<NonNull<T>> {
-        // SAFETY: whoever fills or empties the cell has the lane claimed, which excludes the caller; a shared
-        // reference to the Option is all that is made here.
-        unsafe { (*self.content.get()).as_ref() }.map(NonNull::from)
     }
 }
 
@@ -129,9 +120,9 @@ impl<T: Sync> Lane<T> {
                 Err(now) => found = now,
             }
         }
-        // SAFETY: this thread is counted among the sharers.
-        match unsafe { self.inside() } {
-            Some(content) => Ok(Sharing { lane: self, content }),
+        // SAFETY: this thread is counted among the sharers, so nobody fills or empties the cell.
+        match unsafe { (*self.content.get()).as_ref() } {
+            Some(content) => Ok(Sharing { lane: self, content: NonNull::from(content) }),
             None => {
                 self.word.fetch_sub(1, Ordering::Release);
                 Err(Refused::Stale)

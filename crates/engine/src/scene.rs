@@ -3,7 +3,9 @@
 use crate::{SceneError, Value, settings};
 use glam::DVec3;
 use hapflow_devices::{HandPreset, HandSettings, Segment};
-use hapflow_fluid::{Aabb, BodyConfig, FluidConfig, FluidSettings, OpenBox, Shape, Source, World};
+use hapflow_fluid::{
+    Aabb, BodyConfig, FluidConfig, FluidSettings, MIN_MASS_RATIO, OpenBox, Shape, Source, World,
+};
 use hapflow_haptics::{CouplingKind, FilterSpec, GateSettings, Mapping, Rim, Workspace};
 
 /// Who computes the fluid.
@@ -239,6 +241,7 @@ impl Scene {
     /// The first thing that is wrong, with its field, value and range.
     pub fn check(&self) -> Result<(), SceneError> {
         self.fluid_config(1).check()?;
+        self.check_tool_mass()?;
         self.gate.check()?;
         self.hand.check()?;
         self.filter().check(1000.0)?;
@@ -247,6 +250,19 @@ impl Scene {
             self.check_change(k, change)?;
         }
         Ok(())
+    }
+
+    /// A driven body that is too light would be thrown about.
+    fn check_tool_mass(&self) -> Result<(), SceneError> {
+        let least = MIN_MASS_RATIO * self.fluid.rest_density * self.tool.shape().volume();
+        if self.run.coupling != CouplingKind::Momentum || self.tool.mass >= least {
+            return Ok(());
+        }
+        Err(SceneError::BadValue {
+            path: "tool.mass".into(),
+            value: format!("{}", self.tool.mass),
+            expected: format!("at least {least:.3} kg for this tool with coupling momentum"),
+        })
     }
 
     fn check_change(&self, k: usize, change: &Change) -> Result<(), SceneError> {

@@ -514,7 +514,8 @@ pub const SOURCE_SETTINGS: &[Setting<Source>] = &[
 
 /// Every setting as a table in Markdown: path, default, what it may be, whether it is live, what it does.
 pub fn table() -> String {
-    let mut text = String::from("| setting | default | allowed | live | what it does |\n|---|---|---|---|---|\n");
+    let mut text =
+        String::from("| setting | default | allowed | live | what it does |\n|---|---|---|---|---|\n");
     let scene = Scene::default();
     for setting in SETTINGS {
         text += &row(setting, &scene, setting.path);

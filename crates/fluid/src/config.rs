@@ -319,19 +319,29 @@ impl FluidConfig {
                 return Err(FluidError::Box { name, min: b.min, max: b.max });
             }
         }
+        if let Some(height) = self.world.ground {
+            range("ground", height, -1e3, 1e3)?;
+        }
         for s in &self.world.sources {
+            place("source.position", s.position)?;
             range("source.diameter", s.diameter, 0.0, 1.0)?;
             range("source.speed", s.speed, 0.0, 20.0)?;
             range("source.duty", s.duty, 0.0, 1.0)?;
             range("source.direction (length)", s.direction.length(), 1e-6, 1e6)?;
         }
         for b in &self.world.bodies {
+            place("tool.position", b.position)?;
             range("tool.mass", b.mass, 1e-4, 100.0)?;
             range("tool.collision_response", b.collision_response, 0.0, 1.0)?;
             range("tool.radius", b.shape.bounding_radius(), 1e-4, 1.0)?;
         }
         Ok(())
     }
+}
+
+/// Each coordinate finite and within a kilometre.
+fn place(field: &'static str, position: DVec3) -> Result<(), FluidError> {
+    position.to_array().into_iter().try_for_each(|c| range(field, c, -1e3, 1e3))
 }
 
 pub(crate) fn range(field: &'static str, value: f64, min: f64, max: f64) -> Result<(), FluidError> {

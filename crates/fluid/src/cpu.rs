@@ -9,6 +9,7 @@ use crate::body::{Body, BodyLoad, BodyNow, BodyTables};
 use crate::emitter::Emitter;
 use crate::grid::Grid;
 use crate::particles::{Newborn, Particles};
+use crate::restack::restack;
 use crate::solids::{Meeting, Solids, Walls};
 use crate::solver::muller::Muller;
 use crate::solver::wcsph::{PACKING_INTERVAL, Wcsph};
@@ -176,27 +177,27 @@ impl Fluid {
             self.tables = BodyTables::new(&new.world.bodies, support);
         }
         self.walls = Walls::new(&new.world, new.settings.spacing);
-        if new.settings.spacing != old.settings.spacing {
-            self.resample(old.settings.spacing, new);
+        let off = |config: &FluidConfig| config.settings.mode == InteractionMode::None;
+        let switched_on = off(old) && !off(new);
+        let respaced = new.settings.spacing != old.settings.spacing;
+        if switched_on || respaced {
+            self.make_room(old.settings.spacing, new);
         }
-        let switched_on =
-            old.settings.mode == InteractionMode::None && new.settings.mode != InteractionMode::None;
-        if switched_on
-            || new.settings.solver != old.settings.solver
-            || new.settings.spacing != old.settings.spacing
-        {
+        if switched_on || respaced || new.settings.solver != old.settings.solver {
             self.particles.p.fill(0.0);
             self.particles.slow.fill(0.0);
             self.forgive = true;
         }
     }
 
-    /// Replaces the particles by others of another spacing that fill the same room with the same motion.
-    fn resample(&mut self, old_spacing: f64, new: &FluidConfig) {
-        let born =
-            pools::resample(&self.particles, old_spacing, new.settings.spacing, new.settings.max_particles);
-        self.particles = Particles::new();
-        self.particles.extend(&born);
+    /// Brings the particles to a new spacing, and spreads those that lie in each other's room.
+    fn make_room(&mut self, old_spacing: f64, config: &FluidConfig) {
+        let now: Vec<_> = self.bodies.iter().map(|b| BodyNow::new(b, config.settings.spacing)).collect();
+        let solids = Solids { walls: &self.walls, bodies: &now, plane: &self.plane, tables: &self.tables };
+        if old_spacing != config.settings.spacing {
+            self.particles.replace(&pools::resample(&self.particles, old_spacing, config, &solids));
+        }
+        restack(&mut self.particles, config, &solids);
     }
 
     fn frame(
@@ -208,8 +209,9 @@ impl Fluid {
     ) {
         let speed = f64::from(self.max_speed).max(config.reference_speed()).max(self.tool_speed(frame));
         let needed = limits::substeps(config, frame.duration, speed);
-        let steps = needed.min(config.settings.max_substeps);
-        let step = self.plan(config, frame.duration / steps as f64);
+        // A frame of no length changes nothing.
+        let steps = if frame.duration > 0.0 { needed.min(config.settings.max_substeps) } else { 0 };
+        let step = self.plan(config, frame.duration / steps.max(1) as f64);
         self.begin(frame, output);
         for k in 0..steps {
             let share = (k + 1) as f64 / steps as f64;
@@ -283,7 +285,13 @@ impl Fluid {
         self.now.extend(self.bodies.iter().map(|b| BodyNow::new(b, margin)));
         self.step_loads.fill(BodyLoad::default());
         if self.interacts(config.settings.mode) {
-            self.forces(arch, step.dt);
+            // In mixed mode a sub-step with forces gives the push of the next one too.
+            let mixed = config.settings.mode == InteractionMode::Mixed;
+            self.forces(arch, if mixed { 2.0 * step.dt } else { step.dt });
+            if mixed {
+                self.rows.as_flattened_mut().iter_mut().for_each(|a| *a *= 2.0);
+                self.step_loads.iter_mut().for_each(|load| *load = *load * 2.0);
+            }
         } else {
             self.rows.clear();
             self.rows.resize(self.particles.len(), [0.0; 4]);
@@ -384,13 +392,22 @@ impl Fluid {
                 self.degraded |= speed > step.guard;
             }
             let mut state = (position + velocity * dt, velocity);
+            let mut met_body = false;
             solids.visit(state.0, step.contact.distance, |m| {
                 p.held[i] = 0.0;
+                met_body |= m.body.is_some();
                 let impulse = stop(&mut state, &m, step.contact, mass);
                 if let (true, Some(body)) = (s.two_way, m.body) {
                     self.step_loads[body].react(impulse / dt, Vec3::ZERO, m.contact.arm);
                 }
             });
+            if met_body {
+                // A tool that overlaps a wall must not push water through it.
+                let walls = Solids { bodies: &[], ..solids };
+                walls.visit(state.0, step.contact.distance, |m| {
+                    stop(&mut state, &m, step.contact, mass);
+                });
+            }
             p.set_position(i, state.0);
             p.set_velocity(i, state.1);
             fastest = fastest.max(state.1.length());

@@ -65,7 +65,7 @@ impl Emitter {
             let position: Vec3 = (source.position + axis * travelled + offset).as_vec3();
             let held = (INLET_SPACINGS * spacing - travelled).max(0.0) / source.speed;
             let velocity = (axis * source.speed).as_vec3();
-            out.push(Newborn { position, velocity, pressure: 0.0, held: held as f32 });
+            out.push(Newborn { position, velocity, held: held as f32, ..Newborn::default() });
         }
     }
 }

@@ -29,8 +29,8 @@ impl Grid {
         self.start.clear();
         self.start.resize(cells + 1, 0);
         self.cell.clear();
-        for i in 0..particles.len() {
-            let cell = if dead[i] { u32::MAX } else { self.cell_at(particles, i) };
+        for (i, &dead) in dead.iter().enumerate().take(particles.len()) {
+            let cell = if dead { u32::MAX } else { self.cell_at(particles, i) };
             self.cell.push(cell);
             if cell != u32::MAX {
                 self.start[cell as usize + 1] += 1;

@@ -21,6 +21,7 @@ mod lanes;
 mod limits;
 mod particles;
 mod pools;
+mod restack;
 mod shape;
 mod solids;
 mod solver;
@@ -29,7 +30,7 @@ mod wall;
 
 pub use analytic_jet::{AnalyticJet, jet_force};
 pub use backend::{FluidBackend, FluidError, FrameInput, FrameOutput, ParticleView};
-pub use body::{BodyDrive, BodyLoad, BodyMotion, BodySample, BodyState};
+pub use body::{BodyDrive, BodyLoad, BodyMotion, BodySample, BodyState, MIN_MASS_RATIO};
 pub use config::{
     Aabb, BodyConfig, FluidConfig, FluidSettings, InteractionMode, OpenBox, Solver, Source, World,
 };

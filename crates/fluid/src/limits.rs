@@ -38,13 +38,16 @@ pub fn step_limits(config: &FluidConfig, speed: f64) -> StepLimits {
         Solver::Muller => (0.4, 0.04),
     };
     let nu = s.kinematic_viscosity() + solver::artificial_viscosity(config);
-    StepLimits { cfl: courant * dx / c, viscous: viscous * h * h / nu.max(1e-12), contact }
+    // Mixed gives every other sub-step the push of two.
+    let share = if s.mode == InteractionMode::Mixed { 0.7 } else { 1.0 };
+    StepLimits { cfl: share * courant * dx / c, viscous: share * viscous * h * h / nu.max(1e-12), contact }
 }
 
 /// Sub-steps that a frame of `frame_s` seconds needs.
 pub(crate) fn substeps(config: &FluidConfig, frame_s: f64, speed: f64) -> usize {
-    let needed = (frame_s / step_limits(config, speed).shortest()).ceil();
-    (needed as usize).max(1)
+    let needed = ((frame_s / step_limits(config, speed).shortest()).ceil() as usize).max(1);
+    // Mixed sub-steps come in pairs, so that every frame gets the same share of them.
+    if config.settings.mode == InteractionMode::Mixed { needed.next_multiple_of(2) } else { needed }
 }
 
 /// Refuses settings that need more sub-steps a frame than are allowed, and says which setting is to blame.

@@ -42,6 +42,7 @@ pub(crate) struct Newborn {
     pub position: Vec3,
     pub velocity: Vec3,
     pub pressure: f32,
+    pub age: f32,
     pub held: f32,
 }
 
@@ -98,7 +99,7 @@ impl Particles {
         self.id.truncate(len);
         for b in newborn {
             let row = [b.position.x, b.position.y, b.position.z, b.velocity.x, b.velocity.y, b.velocity.z];
-            let row = row.into_iter().chain([b.pressure, 0.0, 0.0, 1.0, 0.0, b.held]);
+            let row = row.into_iter().chain([b.pressure, 0.0, 0.0, 1.0, b.age, b.held]);
             for (column, value) in self.columns().into_iter().zip(row) {
                 column.push(value);
             }
@@ -107,6 +108,12 @@ impl Particles {
         }
         self.len += newborn.len();
         self.pad();
+    }
+
+    /// Replaces all particles; numbers are never used again.
+    pub fn replace(&mut self, newborn: &[Newborn]) {
+        self.len = 0;
+        self.extend(newborn);
     }
 
     /// Keeps `order.len()` particles: entry k of every column becomes the old entry `order[k]`.

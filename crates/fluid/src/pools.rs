@@ -2,8 +2,9 @@
 
 use crate::body::{Body, BodyNow};
 use crate::particles::{Newborn, Particles};
-use crate::{Aabb, FluidConfig, FluidError, Solver, kernel};
-use glam::{DVec3, Vec3};
+use crate::solids::Solids;
+use crate::{Aabb, FluidConfig, FluidError, Solver, restack};
+use glam::{DVec3, IVec3, Vec3};
 use std::collections::BTreeMap;
 
 /// Particles stand off the lattice by up to this share of the spacing: a perfect lattice has no side forces,
@@ -75,42 +76,69 @@ impl Random {
     }
 }
 
-/// The same fluid at another spacing: lattice points where the old particles fill at least half of a kernel,
-/// with their mean velocity. At most `most` points.
-pub(crate) fn resample(old: &Particles, old_spacing: f64, spacing: f64, most: usize) -> Vec<Newborn> {
-    let h = 2.0 * old_spacing.max(spacing);
-    let volume = old_spacing.powi(3);
-    let mut field: BTreeMap<[i32; 3], (f64, DVec3)> = BTreeMap::new();
-    let reach = (h / spacing).ceil() as i32;
+/// What the old particles leave at a site of the new lattice.
+#[derive(Clone, Copy, Default)]
+struct Deposit {
+    /// Share of the site's cube that they fill.
+    filled: f32,
+    velocity: Vec3,
+    age: f32,
+    held: f32,
+}
+
+/// The same fluid at the spacing of `config`: as many particles as hold the same volume, on the sites of a lattice
+/// that the old ones' cubes fill best, with their mean motion. Where there are too few sites, some stand
+/// double, for `restack`.
+pub(crate) fn resample(
+    old: &Particles,
+    old_spacing: f64,
+    config: &FluidConfig,
+    solids: &Solids<'_>,
+) -> Vec<Newborn> {
+    let (spacing, corner) = (config.settings.spacing as f32, restack::corner(config));
+    let place = |key: &[i32; 3]| corner + (IVec3::new(key[2], key[0], key[1]).as_vec3() + 0.5) * spacing;
+    let field = deposit(old, old_spacing as f32, spacing, corner);
+    let mut sites: Vec<_> =
+        field.iter().filter(|(key, _)| restack::is_free(place(key), spacing, solids)).collect();
+    // The fullest first; equal ones in order of height, so that a surface stays level.
+    sites.sort_by(|a, b| b.1.filled.total_cmp(&a.1.filled).then(a.0.cmp(b.0)));
+    let volume = old.len() as f64 * (old_spacing / config.settings.spacing).powi(3);
+    let count = (volume.round() as usize).min(config.settings.max_particles);
+    let born = |(key, d): &(&[i32; 3], &Deposit)| Newborn {
+        position: place(key),
+        velocity: d.velocity / d.filled,
+        age: d.age / d.filled,
+        held: d.held / d.filled,
+        ..Newborn::default()
+    };
+    sites.iter().cycle().take(if sites.is_empty() { 0 } else { count }).map(born).collect()
+}
+
+/// Lays each old particle's cube over the cubes of the new lattice; keys are height, z, x.
+fn deposit(old: &Particles, old_spacing: f32, spacing: f32, corner: Vec3) -> BTreeMap<[i32; 3], Deposit> {
+    let mut field: BTreeMap<[i32; 3], Deposit> = BTreeMap::new();
+    let size = old_spacing / spacing;
     for i in 0..old.len() {
-        let (x, v) = (old.position(i).as_dvec3(), old.velocity(i).as_dvec3());
-        let home = (x / spacing).floor().as_ivec3();
-        for offset in cube(reach) {
-            let key = home + offset;
-            let r = ((key.as_dvec3() + 0.5) * spacing).distance(x);
-            let weight = volume * kernel::wendland(r, h);
-            if weight > 0.0 {
-                let entry = field.entry(key.to_array()).or_default();
-                entry.0 += weight;
-                entry.1 += v * weight;
+        // In units of the new lattice.
+        let low = (old.position(i) - corner) / spacing - 0.5 * size;
+        let high = low + size;
+        let (first, last) = (low.floor().as_ivec3(), high.floor().as_ivec3());
+        for (y, z, x) in keys(first, last) {
+            let cell = IVec3::new(x, y, z).as_vec3();
+            let share = (high.min(cell + 1.0) - low.max(cell)).max(Vec3::ZERO).element_product();
+            if share > 0.0 {
+                let d = field.entry([y, z, x]).or_default();
+                d.filled += share;
+                d.velocity += share * old.velocity(i);
+                d.age += share * old.age[i];
+                d.held += share * old.held[i];
             }
         }
     }
-    let filled = field.iter().filter(|(_, (weight, _))| *weight > 0.5).take(most);
-    filled
-        .map(|(key, (weight, momentum))| Newborn {
-            position: ((glam::IVec3::from(*key).as_dvec3() + 0.5) * spacing).as_vec3(),
-            velocity: (*momentum / *weight).as_vec3(),
-            ..Newborn::default()
-        })
-        .collect()
+    field
 }
 
-fn cube(reach: i32) -> impl Iterator<Item = glam::IVec3> {
-    let span = -reach..=reach;
-    let plane = move |z| {
-        let row = -reach..=reach;
-        row.flat_map(move |y| (-reach..=reach).map(move |x| glam::IVec3::new(x, y, z)))
-    };
-    span.flat_map(plane)
+fn keys(first: IVec3, last: IVec3) -> impl Iterator<Item = (i32, i32, i32)> {
+    (first.y..=last.y)
+        .flat_map(move |y| (first.z..=last.z).flat_map(move |z| (first.x..=last.x).map(move |x| (y, z, x))))
 }

@@ -29,7 +29,6 @@ fn a_jet_on_a_disc_pushes_with_rho_a_v_squared() {
 }
 
 #[test]
-#[ignore = "Mixed heats a tank of wcsph: Archimedes' force is a fifth too large and scatters by its own size"]
 fn a_ball_in_a_tank_is_carried_and_not_shaken() {
     for cells in [12, 14] {
         let mut config = tank_scene(Solver::Wcsph, 0.2, cells, 0.05);

@@ -220,17 +220,14 @@ fn a_float_breaks_nothing() {
 }
 
 #[test]
-#[ignore = "a driven body much lighter than the water that it displaces is pushed too far in one sub-step"]
-fn a_light_float_breaks_nothing() {
+fn the_lightest_float_allowed_breaks_nothing() {
+    let displaced = 1000.0 * Shape::Sphere { radius: 0.02 }.volume();
     for solver in SOLVERS {
-        for mass in [1e-4, 1e-3, 3e-3] {
-            float(solver, mass);
-        }
+        float(solver, hapflow_fluid::MIN_MASS_RATIO * displaced);
     }
 }
 
 #[test]
-#[ignore = "a sample that is not finite makes every particle not finite, and all of them are dropped"]
 fn a_broken_sample_does_not_cost_the_water() {
     for solver in SOLVERS {
         for bad in [f64::NAN, f64::INFINITY, 1e30] {
@@ -246,7 +243,6 @@ fn a_broken_sample_does_not_cost_the_water() {
 }
 
 #[test]
-#[ignore = "a frame of no length divides by its length: loads are not finite"]
 fn a_frame_of_no_length_changes_nothing() {
     for solver in SOLVERS {
         let config = tank_scene(solver, 0.1, 8, 0.02);

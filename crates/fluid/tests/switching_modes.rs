@@ -24,6 +24,12 @@ fn tank(solver: Solver, cells: u32) -> FluidConfig {
     FluidConfig { frame_hz: 200.0, ..tank_scene(solver, 0.12, cells, 0.02) }
 }
 
+/// How much more height than before a switch may give the water: it is laid at rest density, and a tank of
+/// `muller` lies about a fifth denser than that.
+fn lift(solver: Solver) -> f64 {
+    if solver == Solver::Muller { 1.6 } else { 1.3 }
+}
+
 fn other(solver: Solver) -> Solver {
     if solver == Solver::Wcsph { Solver::Muller } else { Solver::Wcsph }
 }
@@ -97,7 +103,7 @@ fn switch_on(config: &FluidConfig, mode: InteractionMode, seconds: f64) {
         let given = supply(&config, f64::from(frame) / config.frame_hz);
         let (now, new_kinetic) = (energy(&mut run), kinetic(&mut run));
         let case = format!("{what}, frame {frame}, {given} J were given");
-        assert!(now < 1.25 * most + given, "{case}: {most} J became {now} J");
+        assert!(now < lift(config.settings.solver) * most + given, "{case}: {most} J became {now} J");
         assert!(
             new_kinetic < old_kinetic + 0.2 * most + given,
             "{case}: {old_kinetic} J became {new_kinetic} J"
@@ -129,7 +135,6 @@ fn interaction_can_be_switched_on_in_a_tank_that_has_begun_to_fall() {
 }
 
 #[test]
-#[ignore = "wcsph bursts and muller jumps when all water of a tank lies in one layer"]
 fn interaction_can_be_switched_on_in_a_tank_that_has_fallen() {
     for solver in SOLVERS {
         for mode in MODES {
@@ -178,7 +183,7 @@ fn respace(mut config: FluidConfig, factor: f64) {
     run.configure(&config);
     let (now, given) = (volume(&mut run) / old_volume, energy(&mut run));
     assert!((now - 1.0).abs() < 0.1, "{what}: the volume became {now} of what it was");
-    assert!(given < 1.3 * before, "{what}: {before} J became {given} J");
+    assert!(given < lift(config.settings.solver) * before, "{what}: {before} J became {given} J");
     assert_calm(&mut run, natural.max(natural_speed(&config)), &what);
 }
 
@@ -192,7 +197,6 @@ fn the_spacing_of_a_tank_can_be_switched() {
 }
 
 #[test]
-#[ignore = "thin sheets and clumped particles fill less than half of a kernel and are lost: up to 87 % of the water"]
 fn the_spacing_of_anything_can_be_switched() {
     for solver in SOLVERS {
         for factor in [0.7, 1.5] {

@@ -1,0 +1,274 @@
+//! The caller's memory. Its pointers come in as these types, which C alone can make (their fields are private), and
+//! everything that is read or written through them is here.
+//!
+//! What the header asks of the caller is what every SAFETY comment here leans on: a pointer is null, or it points to
+//! memory of the size that the struct or the length argument says, which nobody else writes during the call. It
+//! need not be aligned.
+
+use crate::code::{Code, Outcome};
+use std::ffi::{CStr, c_char};
+
+/// Largest struct that is believed; what is larger was never initialised.
+const LARGEST: usize = 4096;
+
+/// A struct of the header that says its own size.
+///
+/// # Safety
+/// `repr(C)`, without padding, any bits are a value, and a `u32` with the struct's size is at byte `SIZE_AT`.
+pub unsafe trait Record: Copy {
+    /// Where its size is.
+    const SIZE_AT: usize;
+    /// Its size when it was first published.
+    const FIRST_SIZE: usize;
+}
+
+/// A struct that is read.
+#[repr(transparent)]
+#[derive(Clone, Copy)]
+pub struct In<T>(*const T);
+
+/// Where a result is written.
+#[repr(transparent)]
+#[derive(Clone, Copy)]
+pub struct Out<T>(*mut T);
+
+/// A text, up to its NUL.
+#[repr(transparent)]
+#[derive(Clone, Copy)]
+pub struct Text(*const c_char);
+
+/// A buffer for `capacity` elements, which comes as the next argument.
+#[repr(transparent)]
+#[derive(Clone, Copy)]
+pub struct Buffer<T>(*mut T);
+
+/// The size that the struct at `place` says.
+fn said_size<T: Record>(place: *const u8) -> Result<usize, Code> {
+    if place.is_null() {
+        return Err(Code::ERROR_NULL);
+    }
+    // SAFETY: not null, and every version of the struct has its size there.
+    let size = unsafe { place.add(T::SIZE_AT).cast::<u32>().read_unaligned() } as usize;
+    if (T::FIRST_SIZE..=LARGEST).contains(&size) { Ok(size) } else { Err(Code::ERROR_STRUCT) }
+}
+
+impl<T: Record> In<T> {
+    /// Reads it over `defaults`: a tail that the caller does not know keeps them. A tail that this library does
+    /// not know must be zero, else something would be asked for that is not done.
+    pub fn read(self, defaults: T) -> Result<T, Code> {
+        let from = self.0.cast::<u8>();
+        let size = said_size::<T>(from)?;
+        let mut value = defaults;
+        let known = size.min(size_of::<T>());
+        // SAFETY: both are at least `known` bytes, they do not overlap, and any bits are a `T`.
+        unsafe { from.copy_to_nonoverlapping((&raw mut value).cast(), known) };
+        // SAFETY: the struct is `size` bytes.
+        let unknown = (known..size).any(|at| unsafe { from.add(at).read() } != 0);
+        if unknown { Err(Code::ERROR_UNSUPPORTED) } else { Ok(value) }
+    }
+}
+
+impl<const N: usize> In<[f64; N]> {
+    /// Reads an array.
+    pub fn array(self) -> Result<[f64; N], Code> {
+        if self.0.is_null() {
+            return Err(Code::ERROR_NULL);
+        }
+        // SAFETY: not null, hence `N` numbers.
+        Ok(unsafe { self.0.read_unaligned() })
+    }
+}
+
+impl<T: Copy> Out<T> {
+    /// Writes it whole: for what never grows.
+    pub fn put(self, value: T) -> Result<(), Code> {
+        if self.0.is_null() {
+            return Err(Code::ERROR_NULL);
+        }
+        // SAFETY: not null, hence a `T`.
+        unsafe { self.0.write_unaligned(value) };
+        Ok(())
+    }
+
+    /// Refuses null, before any work is done.
+    pub fn check(self) -> Result<(), Code> {
+        if self.0.is_null() { Err(Code::ERROR_NULL) } else { Ok(()) }
+    }
+}
+
+impl<T: Record> Out<T> {
+    /// Writes as much of it as the caller's struct says that it holds; that size stays.
+    pub fn fill(self, value: &T) -> Result<(), Code> {
+        let size = said_size::<T>(self.0.cast())?;
+        self.copy(value, size)
+    }
+
+    /// Makes the caller's memory of `size` bytes such a struct. A tail that is not known here becomes zero.
+    pub fn init(self, value: &T, size: u32) -> Result<(), Code> {
+        self.check()?;
+        let length = size as usize;
+        if !(T::FIRST_SIZE..=LARGEST).contains(&length) {
+            return Err(Code::ERROR_STRUCT);
+        }
+        // SAFETY: not null, and of that size.
+        unsafe { self.0.cast::<u8>().write_bytes(0, length) };
+        self.copy(value, length)
+    }
+
+    fn copy(self, value: &T, size: usize) -> Result<(), Code> {
+        let said = u32::try_from(size).map_err(|_| Code::ERROR_STRUCT)?;
+        let known = size.min(size_of::<T>());
+        let to = self.0.cast::<u8>();
+        // SAFETY: both are at least `known` bytes, and they do not overlap.
+        unsafe { (&raw const *value).cast::<u8>().copy_to_nonoverlapping(to, known) };
+        // SAFETY: every version of the struct has its size there.
+        unsafe { to.add(T::SIZE_AT).cast::<u32>().write_unaligned(said) };
+        Ok(())
+    }
+}
+
+impl Text {
+    /// No text.
+    pub const NULL: Self = Self(std::ptr::null());
+
+    pub fn is_null(self) -> bool {
+        self.0.is_null()
+    }
+
+    /// The text, borrowed for the call.
+    pub fn read<'call>(self) -> Result<&'call str, Code> {
+        if self.0.is_null() {
+            return Err(Code::ERROR_NULL);
+        }
+        // SAFETY: not null, hence a text with a NUL, which nobody writes during the call.
+        let text = unsafe { CStr::from_ptr(self.0) };
+        text.to_str().map_err(|_| Code::ERROR_TEXT)
+    }
+
+    /// The text of `length` bytes; at 0 it goes to its NUL.
+    pub fn read_bytes<'call>(self, length: usize) -> Result<&'call str, Code> {
+        if length == 0 {
+            return self.read();
+        }
+        if self.0.is_null() {
+            return Err(Code::ERROR_NULL);
+        }
+        if isize::try_from(length).is_err() {
+            return Err(Code::ERROR_VALUE);
+        }
+        // SAFETY: not null, hence `length` bytes, which nobody writes during the call.
+        let bytes = unsafe { std::slice::from_raw_parts(self.0.cast::<u8>(), length) };
+        std::str::from_utf8(bytes).map_err(|_| Code::ERROR_TEXT)
+    }
+}
+
+impl<T: Copy> Buffer<T> {
+    /// Writes the first `capacity` of `values`; null only with a capacity of 0.
+    fn fill(self, capacity: usize, values: &[T]) -> Result<usize, Code> {
+        let count = capacity.min(values.len());
+        if capacity > 0 && self.0.is_null() {
+            return Err(Code::ERROR_NULL);
+        }
+        if count > 0 {
+            // SAFETY: not null, hence at least `capacity` elements; byte-wise, since it may be unaligned.
+            unsafe {
+                let from = values.as_ptr().cast::<u8>();
+                from.copy_to_nonoverlapping(self.0.cast(), count * size_of::<T>());
+            }
+        }
+        Ok(count)
+    }
+
+    /// Two-call enumeration: with a capacity of 0 only the count is told.
+    pub fn enumerate(self, capacity: usize, count: Out<usize>, values: &[T]) -> Outcome {
+        count.check()?;
+        self.fill(capacity, values)?;
+        count.put(values.len())?;
+        Ok(told(capacity, values.len()))
+    }
+}
+
+impl Buffer<c_char> {
+    /// The same for a text: the capacity counts the NUL, the length does not. What is cut off is whole letters.
+    pub fn enumerate_text(self, capacity: usize, length: Out<usize>, text: &str) -> Outcome {
+        length.check()?;
+        if capacity > 0 {
+            let cut = text.floor_char_boundary(capacity - 1);
+            let mut bytes: Vec<c_char> = text.as_bytes()[..cut].iter().map(|b| *b as c_char).collect();
+            bytes.push(0);
+            self.fill(capacity, &bytes)?;
+        }
+        length.put(text.len())?;
+        Ok(told(capacity, text.len() + 1))
+    }
+}
+
+fn told(capacity: usize, all: usize) -> Code {
+    if capacity == 0 || capacity >= all { Code::OK } else { Code::REMARK_MORE }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    struct Grown {
+        size: u32,
+        a: u32,
+        b: u32,
+    }
+
+    // SAFETY: as the trait asks.
+    unsafe impl Record for Grown {
+        const SIZE_AT: usize = 0;
+        const FIRST_SIZE: usize = 8;
+    }
+
+    const DEFAULTS: Grown = Grown { size: 12, a: 1, b: 2 };
+
+    #[test]
+    fn a_shorter_struct_takes_the_defaults_of_its_missing_tail() {
+        let short = [8_u32, 7, 99];
+        let read = In(short.as_ptr().cast::<Grown>()).read(DEFAULTS).unwrap();
+        assert_eq!(read, Grown { size: 8, a: 7, b: 2 });
+    }
+
+    #[test]
+    fn a_longer_struct_is_taken_if_its_unknown_tail_is_zero() {
+        let mut long = [16_u32, 7, 8, 0];
+        assert_eq!(In(long.as_ptr().cast::<Grown>()).read(DEFAULTS).map(|g| g.b), Ok(8));
+        long[3] = 1;
+        assert_eq!(In(long.as_ptr().cast::<Grown>()).read(DEFAULTS), Err(Code::ERROR_UNSUPPORTED));
+    }
+
+    #[test]
+    fn sizes_that_cannot_be_are_refused() {
+        for size in [0_u32, 7, 4097, u32::MAX] {
+            let bad = [size, 0, 0];
+            assert_eq!(In(bad.as_ptr().cast::<Grown>()).read(DEFAULTS), Err(Code::ERROR_STRUCT));
+        }
+        assert_eq!(In(std::ptr::null::<Grown>()).read(DEFAULTS), Err(Code::ERROR_NULL));
+    }
+
+    #[test]
+    fn a_shorter_output_gets_only_what_it_knows() {
+        let mut memory = [8_u32, 0, 99];
+        Out(memory.as_mut_ptr().cast::<Grown>()).fill(&DEFAULTS).unwrap();
+        assert_eq!(memory, [8, 1, 99]);
+        let mut memory = [5_u32; 5];
+        Out(memory.as_mut_ptr().cast::<Grown>()).init(&DEFAULTS, 16).unwrap();
+        assert_eq!(memory, [16, 1, 2, 0, 5]);
+    }
+
+    #[test]
+    fn texts_are_cut_between_letters() {
+        let mut buffer = [1 as c_char; 8];
+        let mut length = 0;
+        let (to, out) = (Buffer(buffer.as_mut_ptr()), Out(&raw mut length));
+        assert_eq!(to.enumerate_text(3, out, "aé"), Ok(Code::REMARK_MORE));
+        assert_eq!((buffer[..3].to_vec(), length), (vec![b'a' as c_char, 0, 1], 3));
+        assert_eq!(to.enumerate_text(4, out, "aé"), Ok(Code::OK));
+        assert_eq!(buffer[3], 0);
+    }
+}

@@ -1,0 +1,109 @@
+//! `hapflow_report`: the newest tick and the newest fluid frame.
+
+use crate::caller::{Out, Record};
+use crate::code::Code;
+use crate::fence::fence;
+use hapflow_engine::{FluidReport, ServoReport};
+use hapflow_haptics::FaultSet;
+
+/// `hapflow_report`.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Report {
+    size: u32,
+    faults: u32,
+    tick: u64,
+    time_s: f64,
+    position: [f64; 3],
+    body: [f64; 3],
+    raw_force: [f64; 3],
+    raw_torque: [f64; 3],
+    force: [f64; 3],
+    torque: [f64; 3],
+    model_frame: u64,
+    model_age_s: f64,
+    fluid_frame: u64,
+    fluid_time_s: f64,
+    particles: u64,
+    substeps: u64,
+    max_speed: f64,
+    load_force: [f64; 3],
+    load_torque: [f64; 3],
+    degraded: u64,
+}
+
+const _: () = assert!(size_of::<Report>() == 280);
+const _: () = assert!(std::mem::offset_of!(Report, model_frame) == 168);
+
+// SAFETY: repr(C), two u32 and then 8-byte fields: no padding; every field takes any bits.
+unsafe impl Record for Report {
+    const SIZE_AT: usize = 0;
+    const FIRST_SIZE: usize = 280;
+}
+
+impl Report {
+    /// Before any tick.
+    fn empty() -> Self {
+        Self::of(&ServoReport::default(), &FluidReport::default(), FaultSet::NONE)
+    }
+
+    /// What it says of a tick and a frame. `faults` are those that were raised since that tick.
+    pub fn of(servo: &ServoReport, fluid: &FluidReport, faults: FaultSet) -> Self {
+        Self {
+            size: size_of::<Self>() as u32,
+            faults: (servo.faults | faults).bits(),
+            tick: servo.tick,
+            time_s: servo.time_s,
+            position: servo.tool.position.to_array(),
+            body: servo.body.to_array(),
+            raw_force: servo.raw.force.to_array(),
+            raw_torque: servo.raw.torque.to_array(),
+            force: servo.sent.force.to_array(),
+            torque: servo.sent.torque.to_array(),
+            model_frame: servo.frame,
+            model_age_s: servo.age_s,
+            fluid_frame: fluid.frame,
+            fluid_time_s: fluid.time_s,
+            particles: fluid.particles as u64,
+            substeps: fluid.substeps as u64,
+            max_speed: fluid.max_speed,
+            load_force: fluid.load.force.to_array(),
+            load_torque: fluid.load.torque.to_array(),
+            degraded: fluid.degraded,
+        }
+    }
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_report_init(report: Out<Report>, size: u32) -> Code {
+    fence(|| report.init(&Report::empty(), size).map(|()| Code::OK))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_header_has_the_same_faults() {
+        let header = include_str!("../../../include/hapflow/hapflow.h");
+        for (name, fault) in [
+            ("INPUT", FaultSet::NON_FINITE_INPUT),
+            ("FORCE", FaultSet::NON_FINITE_FORCE),
+            ("PANIC", FaultSet::PANIC),
+            ("STALE", FaultSet::STALE),
+            ("DEVICE_LOST", FaultSet::DEVICE_LOST),
+            ("EMERGENCY_STOP", FaultSet::EMERGENCY_STOP),
+            ("PATH_OVERFLOW", FaultSet::PATH_OVERFLOW),
+            ("FLUID", FaultSet::FLUID_FAULT),
+            ("LATE_TICK", FaultSet::LATE_TICK),
+            ("FORCE_LIMITED", FaultSet::FORCE_LIMITED),
+            ("SLEW_LIMITED", FaultSet::SLEW_LIMITED),
+        ] {
+            let line = format!("HAPFLOW_FAULT_{name} = 1 << {},", fault.bits().trailing_zeros());
+            assert!(header.contains(&line), "{line}");
+        }
+        let (latching, remarks) = header.split_once("/* Remarks, which go by themselves").unwrap();
+        assert_eq!((latching.matches("= 1 <<").count(), remarks.matches("= 1 <<").count()), (6, 5));
+    }
+}

@@ -1,0 +1,213 @@
+//! The [main] and [any] functions of a session.
+
+use crate::caller::{Buffer, In, Out, Text};
+use crate::code::{Code, Failure, Outcome};
+use crate::config::SessionConfig;
+use crate::fence::{fence, fence_main};
+use crate::fluid::FluidSide;
+use crate::hooks;
+use crate::lane::Faultable;
+use crate::report::Report;
+use crate::servo::ServoSide;
+use crate::table::{Handle, LIBRARY, Parts};
+use glam::DVec3;
+use hapflow_engine::{Control, Scene, Session, SessionOptions, Value};
+use hapflow_haptics::FaultSet;
+use hapflow_realtime::SharedFlags;
+use std::ffi::c_char;
+
+/// Faults that the border itself raises: panics, and what it refuses. The servo passes them on at its next tick.
+#[derive(Clone)]
+pub struct Alarm(SharedFlags);
+
+impl Alarm {
+    pub fn raise(&self, faults: FaultSet) {
+        self.0.raise(faults.bits());
+    }
+
+    pub fn raised(&self) -> FaultSet {
+        FaultSet::from_bits(self.0.load())
+    }
+}
+
+/// Main's part of a session.
+pub struct MainSide {
+    session: Session,
+    control: Control,
+    alarm: Alarm,
+}
+
+impl Faultable for MainSide {
+    fn fault(&mut self) {
+        self.alarm.raise(FaultSet::PANIC);
+    }
+}
+
+/// What any thread may reach of a session.
+pub struct AnySide {
+    control: Control,
+    alarm: Alarm,
+}
+
+impl AnySide {
+    fn clear_faults(&self) {
+        self.alarm.0.clear(u32::MAX);
+        self.control.clear_faults();
+    }
+}
+
+/// Makes a session whose both halves are the host's.
+fn open(scene: &Scene, threads: usize) -> Result<Parts, Failure> {
+    let mut session = Session::open(scene, SessionOptions { threads, ..SessionOptions::hosted() })?;
+    let (Some(servo), Some(fluid)) = (session.take_servo(), session.take_fluid()) else {
+        return Err(Failure { code: Code::ERROR_SCENE, text: "the session's halves are taken".into() });
+    };
+    let (control, alarm) = (session.control(), Alarm(SharedFlags::new()));
+    Ok(Parts {
+        servo: ServoSide::new(servo, alarm.clone()),
+        fluid: FluidSide::new(fluid, alarm.clone(), scene.run.fluid_hz),
+        any: AnySide { control: control.clone(), alarm: alarm.clone() },
+        main: MainSide { session, control, alarm },
+    })
+}
+
+fn with_main(session: Handle, body: impl FnOnce(&mut MainSide) -> Result<Code, Failure>) -> Code {
+    fence_main(|| {
+        let mut side = LIBRARY.main(session)?;
+        hooks::panic_if_asked();
+        body(&mut side)
+    })
+}
+
+fn with_any(session: Handle, body: impl FnOnce(&AnySide) -> Outcome) -> Code {
+    fence(|| body(&*LIBRARY.any(session)?))
+}
+
+fn finite(path: &str, numbers: &[f64]) -> Result<(), Failure> {
+    if numbers.iter().all(|n| n.is_finite()) {
+        return Ok(());
+    }
+    let text = format!("{path} = {numbers:?}: must be finite");
+    Err(Failure { code: Code::ERROR_NOT_FINITE, text })
+}
+
+fn set(side: &MainSide, path: &str, value: &Value) -> Result<Code, Failure> {
+    side.session.set(path, value)?;
+    Ok(Code::OK)
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_create(config: In<SessionConfig>, session: Out<Handle>) -> Code {
+    fence_main(|| {
+        LIBRARY.negotiated()?;
+        session.check()?;
+        let config = config.read(SessionConfig::DEFAULT)?;
+        config.check()?;
+        hooks::panic_if_asked();
+        let parts = open(&config.scene()?, config.threads())?;
+        session.put(LIBRARY.place(parts)?)?;
+        Ok(Code::OK)
+    })
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_destroy(session: Handle) -> Code {
+    fence_main(|| {
+        drop(LIBRARY.remove(session)?);
+        Ok(Code::OK)
+    })
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_set(session: Handle, path: Text, value: f64) -> Code {
+    with_main(session, |side| {
+        let path = path.read()?;
+        finite(path, &[value])?;
+        set(side, path, &Value::Number(value))
+    })
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_set_vector(session: Handle, path: Text, value: In<[f64; 3]>) -> Code {
+    with_main(session, |side| {
+        let (path, value) = (path.read()?, value.array()?);
+        finite(path, &value)?;
+        set(side, path, &Value::Vector(DVec3::from(value)))
+    })
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_set_text(session: Handle, path: Text, value: Text) -> Code {
+    with_main(session, |side| set(side, path.read()?, &Value::parse(value.read()?)))
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_get(session: Handle, path: Text, value: Out<f64>) -> Code {
+    with_main(session, |side| {
+        value.check()?;
+        let path = path.read()?;
+        let number = match side.session.get(path)? {
+            Value::Number(n) => n,
+            Value::Bool(b) => f64::from(u8::from(b)),
+            other => {
+                let text = format!("{path} = {other}: not a number; hapflow_session_get_text reads it");
+                return Err(Failure { code: Code::ERROR_VALUE, text });
+            }
+        };
+        value.put(number)?;
+        Ok(Code::OK)
+    })
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_get_text(
+    session: Handle,
+    path: Text,
+    text: Buffer<c_char>,
+    capacity: usize,
+    length: Out<usize>,
+) -> Code {
+    with_main(session, |side| {
+        let value = match side.session.get(path.read()?)? {
+            Value::Text(word) => word,
+            other => other.to_string(),
+        };
+        Ok(text.enumerate_text(capacity, length, &value)?)
+    })
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_report(session: Handle, report: Out<Report>) -> Code {
+    with_main(session, |side| {
+        let (servo, fluid) = (side.session.report(), side.session.fluid_report());
+        let raised = side.control.faults() | side.alarm.raised();
+        report.fill(&Report::of(&servo, &fluid, raised))?;
+        Ok(Code::OK)
+    })
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_emergency_stop(session: Handle) -> Code {
+    with_any(session, |side| {
+        side.control.emergency_stop();
+        Ok(Code::OK)
+    })
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_clear_faults(session: Handle) -> Code {
+    with_any(session, |side| {
+        side.clear_faults();
+        Ok(Code::OK)
+    })
+}

@@ -1,0 +1,100 @@
+//! `hapflow_tool_state`: where the hand is, and when.
+
+use crate::caller::{Out, Record};
+use crate::code::Code;
+use crate::fence::fence;
+use glam::{DQuat, DVec3};
+use hapflow_haptics::ToolState;
+
+/// Farthest that a tool may be, m, and fastest, m/s: beyond any hand, and within what f32 steps soundly.
+const FARTHEST: f64 = 1000.0;
+/// Fastest that it may turn, rad/s.
+const FASTEST_TURN: f64 = 1e5;
+/// Latest time, s: a third of a year, in which f64 still tells nanoseconds apart.
+pub const LATEST_S: f64 = 1e7;
+
+/// `hapflow_tool_state`.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct ToolStateIn {
+    size: u32,
+    tool: u32,
+    buttons: u32,
+    reserved: u32,
+    pub time_s: f64,
+    pub dt_s: f64,
+    position: [f64; 3],
+    orientation: [f64; 4],
+    velocity: [f64; 3],
+    angular_velocity: [f64; 3],
+}
+
+const _: () = assert!(size_of::<ToolStateIn>() == 136);
+const _: () = assert!(std::mem::offset_of!(ToolStateIn, position) == 32);
+
+// SAFETY: repr(C), 16 bytes and fifteen f64: no padding; every field takes any bits.
+unsafe impl Record for ToolStateIn {
+    const SIZE_AT: usize = 0;
+    const FIRST_SIZE: usize = 136;
+}
+
+impl ToolStateIn {
+    /// What the init function writes: a tool at rest in the origin, at 1 kHz.
+    pub const DEFAULT: Self = Self {
+        size: size_of::<Self>() as u32,
+        tool: 0,
+        buttons: 0,
+        reserved: 0,
+        time_s: 0.0,
+        dt_s: 1e-3,
+        position: [0.0; 3],
+        orientation: [0.0, 0.0, 0.0, 1.0],
+        velocity: [0.0; 3],
+        angular_velocity: [0.0; 3],
+    };
+
+    /// The state as the engine takes it, after `last_s`.
+    pub fn checked(&self, last_s: f64) -> Result<ToolState, Code> {
+        if self.tool != 0 || self.reserved != 0 {
+            return Err(Code::ERROR_UNSUPPORTED);
+        }
+        self.check_time(last_s)?;
+        let state = ToolState {
+            position: DVec3::from(self.position),
+            orientation: DQuat::from_array(self.orientation),
+            velocity: DVec3::from(self.velocity),
+            angular_velocity: DVec3::from(self.angular_velocity),
+            buttons: self.buttons,
+        };
+        if !state.is_finite() {
+            return Err(Code::ERROR_NOT_FINITE);
+        }
+        let within = |v: DVec3, limit: f64| v.abs().max_element() <= limit;
+        if !within(state.position, FARTHEST)
+            || !within(state.velocity, FARTHEST)
+            || !within(state.angular_velocity, FASTEST_TURN)
+        {
+            return Err(Code::ERROR_VALUE);
+        }
+        // Written so that an overflow of the length is refused, too.
+        if (state.orientation.length() - 1.0).abs() <= 1e-3 {
+            Ok(state)
+        } else {
+            Err(Code::ERROR_ORIENTATION)
+        }
+    }
+
+    fn check_time(&self, last_s: f64) -> Result<(), Code> {
+        if !self.time_s.is_finite() || !self.dt_s.is_finite() {
+            return Err(Code::ERROR_NOT_FINITE);
+        }
+        let in_order = self.time_s >= last_s && self.time_s <= LATEST_S && self.dt_s >= 0.0;
+        if in_order { Ok(()) } else { Err(Code::ERROR_TIME) }
+    }
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_tool_state_init(state: Out<ToolStateIn>, size: u32) -> Code {
+    fence(|| state.init(&ToolStateIn::DEFAULT, size).map(|()| Code::OK))
+}

@@ -1,0 +1,234 @@
+//! libhapflow's functions and structs, written down a second time from the header.
+
+use super::{JET, Variant, code, library, scratch};
+use libloading::Library;
+use std::ffi::{CStr, CString, c_char, c_void};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Session {
+    pub id: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SessionConfig {
+    pub kind: u32,
+    pub size: u32,
+    pub next: *const c_void,
+    pub scene: *const c_char,
+    pub toml: *const c_char,
+    pub toml_length: usize,
+    pub settings: *const c_char,
+    pub threads: u32,
+    pub reserved: u32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToolState {
+    pub size: u32,
+    pub tool: u32,
+    pub buttons: u32,
+    pub reserved: u32,
+    pub time_s: f64,
+    pub dt_s: f64,
+    pub position: [f64; 3],
+    pub orientation: [f64; 4],
+    pub velocity: [f64; 3],
+    pub angular_velocity: [f64; 3],
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wrench {
+    pub force: [f64; 3],
+    pub torque: [f64; 3],
+}
+
+impl Wrench {
+    pub const ZERO: Self = Self { force: [0.0; 3], torque: [0.0; 3] };
+    /// What no tick gives: shows whether it was written.
+    pub const UNTOUCHED: Self = Self { force: [777.0; 3], torque: [777.0; 3] };
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    pub size: u32,
+    pub faults: u32,
+    pub tick: u64,
+    pub time_s: f64,
+    pub position: [f64; 3],
+    pub body: [f64; 3],
+    pub raw_force: [f64; 3],
+    pub raw_torque: [f64; 3],
+    pub force: [f64; 3],
+    pub torque: [f64; 3],
+    pub model_frame: u64,
+    pub model_age_s: f64,
+    pub fluid_frame: u64,
+    pub fluid_time_s: f64,
+    pub particles: u64,
+    pub substeps: u64,
+    pub max_speed: f64,
+    pub load_force: [f64; 3],
+    pub load_torque: [f64; 3],
+    pub degraded: u64,
+}
+
+macro_rules! functions {
+    ($($name:ident: fn($($arg:ty),*) $(-> $out:ty)?;)+) => {
+        /// The library, loaded. The functions are declared safe: a test gives them wrong values on purpose, but
+        /// only such as the header says are refused.
+        #[derive(Clone, Copy)]
+        pub struct Api {
+            $(pub $name: extern "C" fn($($arg),*) $(-> $out)?,)+
+            pub test_panic_next_call: Option<extern "C" fn()>,
+        }
+
+        fn bind(library: &Library) -> Api {
+            // SAFETY: the types are those of the header.
+            unsafe {
+                Api {
+                    $($name: *library.get(concat!("hapflow_", stringify!($name))).unwrap(),)+
+                    test_panic_next_call: library.get("hapflow_test_panic_next_call").ok().map(|f| *f),
+                }
+            }
+        }
+    };
+}
+
+functions! {
+    result_text: fn(i32) -> *const c_char;
+    last_error: fn(*mut c_char, usize, *mut usize) -> i32;
+    negotiate: fn(u32, u32, *mut u32) -> i32;
+    version: fn() -> u32;
+    session_config_init: fn(*mut SessionConfig, u32) -> i32;
+    session_create: fn(*const SessionConfig, *mut Session) -> i32;
+    session_destroy: fn(Session) -> i32;
+    session_set: fn(Session, *const c_char, f64) -> i32;
+    session_set_vector: fn(Session, *const c_char, *const [f64; 3]) -> i32;
+    session_set_text: fn(Session, *const c_char, *const c_char) -> i32;
+    session_get: fn(Session, *const c_char, *mut f64) -> i32;
+    session_get_text: fn(Session, *const c_char, *mut c_char, usize, *mut usize) -> i32;
+    session_emergency_stop: fn(Session) -> i32;
+    session_clear_faults: fn(Session) -> i32;
+    session_report: fn(Session, *mut Report) -> i32;
+    tool_state_init: fn(*mut ToolState, u32) -> i32;
+    report_init: fn(*mut Report, u32) -> i32;
+    servo_tick: fn(Session, *const ToolState, *mut Wrench) -> i32;
+    fluid_advance: fn(Session, f64) -> i32;
+    fluid_step: fn(Session, f64) -> i32;
+    fluid_particles: fn(Session, *mut f32, usize, *mut usize) -> i32;
+}
+
+impl Api {
+    /// A library of its own for this test, nothing negotiated: a copy under another name has its own statics.
+    pub fn load(variant: Variant) -> Self {
+        static COPIES: AtomicU32 = AtomicU32::new(0);
+        let name = format!("{}-{}.so", std::process::id(), COPIES.fetch_add(1, Ordering::Relaxed));
+        let copy = scratch().join(name);
+        std::fs::copy(library(variant), &copy).unwrap();
+        // SAFETY: its initialisers are those of Rust's standard library.
+        let library = unsafe { Library::new(&copy) }.unwrap();
+        std::fs::remove_file(&copy).unwrap();
+        let api = bind(&library);
+        std::mem::forget(library);
+        api
+    }
+
+    /// The same, negotiated.
+    pub fn ready(variant: Variant) -> Self {
+        let api = Self::load(variant);
+        assert_eq!((api.negotiate)(1, 1, &mut 0), code::OK);
+        api
+    }
+
+    pub fn config(&self) -> SessionConfig {
+        let mut config = std::mem::MaybeUninit::uninit();
+        let size = size_of::<SessionConfig>() as u32;
+        assert_eq!((self.session_config_init)(config.as_mut_ptr(), size), code::OK);
+        // SAFETY: the init function has filled it.
+        let mut config = unsafe { config.assume_init() };
+        config.threads = 1;
+        config
+    }
+
+    /// Makes a session of a scene's text.
+    pub fn try_create(&self, toml: &str) -> Result<Session, i32> {
+        let config = SessionConfig { toml: toml.as_ptr().cast(), toml_length: toml.len(), ..self.config() };
+        let mut session = Session::default();
+        match (self.session_create)(&config, &mut session) {
+            code::OK => Ok(session),
+            failed => Err(failed),
+        }
+    }
+
+    /// A session of [`JET`].
+    pub fn jet(&self) -> Session {
+        self.try_create(JET).unwrap_or_else(|c| panic!("{c}: {}", self.error()))
+    }
+
+    /// A tool at rest in the origin, at tick `n`.
+    pub fn state(&self, n: u64) -> ToolState {
+        let mut state = std::mem::MaybeUninit::uninit();
+        assert_eq!((self.tool_state_init)(state.as_mut_ptr(), size_of::<ToolState>() as u32), code::OK);
+        // SAFETY: the init function has filled it.
+        let state: ToolState = unsafe { state.assume_init() };
+        ToolState { time_s: n as f64 * 1e-3, ..state }
+    }
+
+    pub fn tick(&self, session: Session, state: &ToolState) -> (i32, Wrench) {
+        let mut wrench = Wrench::UNTOUCHED;
+        let code = (self.servo_tick)(session, state, &mut wrench);
+        (code, wrench)
+    }
+
+    /// Fluid and servo over the ticks `from..to`, at rest; every wrench.
+    pub fn run(&self, session: Session, from: u64, to: u64) -> Vec<Wrench> {
+        let tick = |n| {
+            let state = self.state(n);
+            assert_eq!((self.fluid_advance)(session, state.time_s), code::OK);
+            let (result, wrench) = self.tick(session, &state);
+            assert!(result >= 0, "{result}");
+            wrench
+        };
+        (from..to).map(tick).collect()
+    }
+
+    pub fn report(&self, session: Session) -> Report {
+        let mut report = std::mem::MaybeUninit::uninit();
+        assert_eq!((self.report_init)(report.as_mut_ptr(), size_of::<Report>() as u32), code::OK);
+        assert_eq!((self.session_report)(session, report.as_mut_ptr()), code::OK);
+        // SAFETY: the init function has filled it.
+        unsafe { report.assume_init() }
+    }
+
+    /// The last error's message, by the two calls that the header asks for.
+    pub fn error(&self) -> String {
+        let mut length = 0;
+        assert_eq!((self.last_error)(std::ptr::null_mut(), 0, &mut length), code::OK);
+        let mut buffer = vec![0_u8; length + 1];
+        assert_eq!((self.last_error)(buffer.as_mut_ptr().cast(), buffer.len(), &mut length), code::OK);
+        CStr::from_bytes_with_nul(&buffer).unwrap().to_str().unwrap().into()
+    }
+
+    pub fn set(&self, session: Session, path: &str, value: f64) -> i32 {
+        (self.session_set)(session, CString::new(path).unwrap().as_ptr(), value)
+    }
+
+    pub fn set_text(&self, session: Session, path: &str, value: &str) -> i32 {
+        let (path, value) = (CString::new(path).unwrap(), CString::new(value).unwrap());
+        (self.session_set_text)(session, path.as_ptr(), value.as_ptr())
+    }
+
+    pub fn get(&self, session: Session, path: &str) -> Result<f64, i32> {
+        let mut value = f64::NAN;
+        match (self.session_get)(session, CString::new(path).unwrap().as_ptr(), &mut value) {
+            code::OK => Ok(value),
+            failed => Err(failed),
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! The C interface under several threads, and panics inside it.
+// A test's helpers fail as the test does.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod c_support;
+
+use c_support::{Api, Session, Variant, Wrench, code};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+#[test]
+fn two_threads_in_one_tick_are_found_and_refused() {
+    let api = Api::ready(Variant::Shipped);
+    let session = api.jet();
+    api.run(session, 0, 100);
+    let (busy, done) = (AtomicU64::new(0), AtomicU64::new(0));
+    let patience = Instant::now() + Duration::from_secs(20);
+    let state = api.state(100);
+    thread::scope(|scope| {
+        for _ in 0..3 {
+            scope.spawn(|| {
+                while busy.load(Ordering::Relaxed) < 20 && Instant::now() < patience {
+                    match api.tick(session, &state) {
+                        (code::BUSY, wrench) => {
+                            assert_eq!(wrench, Wrench::ZERO);
+                            busy.fetch_add(1, Ordering::Relaxed);
+                        }
+                        (result, _) => {
+                            assert_eq!(result, code::OK);
+                            done.fetch_add(1, Ordering::Relaxed);
+                        }
+                    }
+                }
+            });
+        }
+    });
+    assert!(busy.load(Ordering::Relaxed) >= 20);
+    assert_eq!(api.report(session).tick, 100 + done.load(Ordering::Relaxed));
+}
+
+/// Servo, fluid and main of one session, each until its handle is stale; what each did.
+fn use_until_destroyed(api: &Api, session: Session, did: &[AtomicU64; 3]) {
+    let until_stale = |which: usize, call: &(dyn Fn(u64) -> i32 + Sync)| {
+        for n in 0.. {
+            match call(n) {
+                code::HANDLE => break,
+                result => assert!(result >= 0, "{result}"),
+            }
+            did[which].fetch_add(1, Ordering::Relaxed);
+        }
+    };
+    thread::scope(|scope| {
+        scope.spawn(|| until_stale(0, &|n| api.tick(session, &api.state(n)).0));
+        scope.spawn(|| until_stale(1, &|n| (api.fluid_step)(session, (n + 1) as f64 * 0.01)));
+        scope.spawn(|| until_stale(2, &|n| api.set(session, "fluid.viscosity", 0.001 * (n % 7) as f64)));
+        scope.spawn(|| {
+            while did.iter().any(|d| d.load(Ordering::Relaxed) < 3) {
+                thread::yield_now();
+            }
+            assert_eq!((api.session_destroy)(session), code::OK);
+        });
+    });
+}
+
+#[test]
+fn destroying_waits_out_what_runs_and_later_calls_are_refused() {
+    let api = Api::ready(Variant::Shipped);
+    let cpu = c_support::JET.replace("backend = \"analytic-jet\"", "") + "\n[fluid]\nspacing = 0.01\n";
+    for n in 0..20 {
+        let scene = if n < 4 { &cpu } else { c_support::JET };
+        let session = api.try_create(scene).unwrap();
+        use_until_destroyed(&api, session, &Default::default());
+        assert_eq!(api.tick(session, &api.state(0)), (code::HANDLE, Wrench::ZERO));
+    }
+}
+
+#[test]
+fn of_several_who_destroy_one_succeeds() {
+    let api = Api::ready(Variant::Shipped);
+    for _ in 0..20 {
+        let session = api.jet();
+        let ended = AtomicU64::new(0);
+        thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(|| match (api.session_destroy)(session) {
+                    code::OK => drop(ended.fetch_add(1, Ordering::Relaxed)),
+                    result => assert_eq!(result, code::HANDLE),
+                });
+            }
+        });
+        assert_eq!(ended.load(Ordering::Relaxed), 1);
+    }
+}
+
+#[test]
+fn anybody_may_stop_at_any_time() {
+    let api = Api::ready(Variant::Shipped);
+    let session = api.jet();
+    api.run(session, 0, 100);
+    let over = AtomicBool::new(false);
+    thread::scope(|scope| {
+        let stoppers: Vec<_> = (0..3)
+            .map(|_| {
+                scope.spawn(|| (0..2000).for_each(|_| assert_eq!((api.session_emergency_stop)(session), 0)))
+            })
+            .collect();
+        let ticker = scope.spawn(|| {
+            let mut held = 0;
+            while !over.load(Ordering::Relaxed) {
+                held += u64::from(api.tick(session, &api.state(100)).0 == code::FORCE_HELD);
+            }
+            held
+        });
+        stoppers.into_iter().for_each(|s| s.join().unwrap());
+        while api.report(session).faults & 1 << 5 == 0 {
+            thread::yield_now();
+        }
+        over.store(true, Ordering::Relaxed);
+        let _ = ticker.join().unwrap();
+    });
+    assert_eq!(api.tick(session, &api.state(100)), (code::FORCE_HELD, Wrench::ZERO));
+}
+
+#[test]
+fn sessions_of_several_threads_give_the_same() {
+    let api = Api::ready(Variant::Shipped);
+    let alone = api.run(api.jet(), 0, 120);
+    thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                let session = api.jet();
+                assert_eq!(api.run(session, 0, 120), alone);
+                assert_eq!((api.session_destroy)(session), code::OK);
+            });
+        }
+    });
+}
+
+/// A session with force, and the hook that makes the next call panic.
+fn about_to_panic() -> (Api, Session, extern "C" fn()) {
+    let api = Api::ready(Variant::Hooks);
+    let session = api.jet();
+    assert!(api.run(session, 0, 100).last().unwrap().force[1] < -0.1);
+    (api, session, api.test_panic_next_call.unwrap())
+}
+
+/// Both bits of a fault mask are up.
+fn faulted(api: &Api, session: Session, bits: u32) -> bool {
+    api.report(session).faults & bits == bits
+}
+
+const PANIC: u32 = 1 << 2;
+const FLUID: u32 = 1 << 7;
+
+#[test]
+fn a_panic_in_a_tick_is_a_code_without_force_and_faults_the_session() {
+    let (api, session, panic_next) = about_to_panic();
+    panic_next();
+    assert_eq!(api.tick(session, &api.state(100)), (code::PANIC, Wrench::ZERO));
+    assert!(faulted(&api, session, PANIC));
+    assert_eq!(api.tick(session, &api.state(101)), (code::FORCE_HELD, Wrench::ZERO));
+    assert_eq!((api.session_clear_faults)(session), code::OK);
+    assert!(api.run(session, 102, 150).last().unwrap().force[1] < -0.1);
+    assert_eq!((api.session_destroy)(session), code::OK);
+}
+
+#[test]
+fn a_panic_of_the_fluid_ends_it_and_the_force() {
+    let (api, session, panic_next) = about_to_panic();
+    panic_next();
+    assert_eq!((api.fluid_advance)(session, 0.2), code::PANIC);
+    assert!(faulted(&api, session, PANIC | FLUID));
+    assert_eq!(api.tick(session, &api.state(100)), (code::FORCE_HELD, Wrench::ZERO));
+    assert_eq!((api.fluid_advance)(session, 0.2), code::FAULTED);
+    assert_eq!((api.fluid_step)(session, 0.2), code::FAULTED);
+    assert_eq!((api.session_destroy)(session), code::OK);
+}
+
+#[test]
+fn a_panic_on_main_is_told_and_the_force_ends() {
+    let (api, session, panic_next) = about_to_panic();
+    panic_next();
+    assert_eq!(api.set(session, "fluid.viscosity", 0.1), code::PANIC);
+    assert!(api.error().contains("panic"));
+    assert_eq!(api.tick(session, &api.state(100)), (code::FORCE_HELD, Wrench::ZERO));
+    panic_next();
+    assert_eq!(api.try_create(c_support::JET), Err(code::PANIC));
+    assert_eq!(api.set(session, "fluid.viscosity", 0.1), code::OK);
+}
