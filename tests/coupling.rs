@@ -1,5 +1,6 @@
 //! Couplings against the balance of momentum over the particles: whatever momentum the falling jet loses beyond
 //! gravity, the tool has taken. The balance is made of snapshots alone and knows nothing of loads.
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! The servo path neither allocates nor frees, over 10⁵ ticks with every filter, new models, faults and changes.
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 mod common;
 
