@@ -163,6 +163,28 @@ fn owned_threads_run_and_stop() {
     assert!(!session.servo_runs());
 }
 
+#[test]
+fn an_owned_fluid_keeps_the_time_of_a_hosts_servo() {
+    let scene = jet(&[("run.backend", word("analytic-jet"))]);
+    let options = SessionOptions { fluid_drive: Drive::Owned, threads: 1, ..SessionOptions::hosted() };
+    let mut session = Session::open(&scene, options).unwrap();
+    assert!(session.take_fluid().is_none(), "the session owns it");
+    let mut servo = session.take_servo().unwrap();
+    // A host that stands still gets no frames.
+    std::thread::sleep(Duration::from_millis(30));
+    assert_eq!(session.fluid_report().frame, 0);
+    let mut tick = 0_u64;
+    while servo.newest().sent.force.length() < 0.3 {
+        servo.tick(&ToolState::default(), tick as f64 * 1e-3, 1e-3);
+        tick += 1;
+        std::thread::sleep(Duration::from_micros(300));
+        assert!(tick < 100_000, "the fluid never came");
+    }
+    let frames = session.fluid_report().frame;
+    assert!(frames >= 1 && frames <= tick / 10 + 1, "{frames} frames in {tick} ticks");
+    session.close();
+}
+
 /// A device that fails as told.
 struct Failing {
     reads: u32,

@@ -36,11 +36,22 @@ pub fn write(folder: &Path, scene: &Scene, outcome: &Outcome, summary: &Summary)
     let path = folder.join("summary.json");
     std::fs::write(&path, text).map_err(|e| OutputError::Summary(path.display().to_string(), e))?;
     chart::save(&force_charts(scene, &outcome.recording.rows), &folder.join("force.png"), CHART.0, CHART.1)?;
-    for (k, picture) in outcome.pictures.iter().enumerate() {
-        let path = folder.join(format!("frame-{}.png", k + 1));
-        image::save_png(&draw(scene, picture), &path)?;
-    }
-    Ok(())
+    write_pictures(folder, scene, &outcome.pictures)
+}
+
+/// Each picture on a thread of its own: the run is over, and all cores are free.
+fn write_pictures(folder: &Path, scene: &Scene, pictures: &[Picture]) -> Result<(), OutputError> {
+    let write = |k: usize, picture: &Picture| {
+        image::save_png(&draw(scene, picture), &folder.join(format!("frame-{}.png", k + 1)))
+    };
+    std::thread::scope(|scope| {
+        let threads: Vec<_> =
+            pictures.iter().enumerate().map(|(k, p)| scope.spawn(move || write(k, p))).collect();
+        threads.into_iter().try_for_each(|thread| match thread.join() {
+            Ok(written) => Ok(written?),
+            Err(panic) => std::panic::resume_unwind(panic),
+        })
+    })
 }
 
 fn draw(scene: &Scene, picture: &Picture) -> image::Image {

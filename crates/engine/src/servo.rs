@@ -4,7 +4,8 @@ use glam::DVec3;
 use hapflow_haptics::{
     FaultSet, Filter, GateSettings, GatedWrench, LocalModel, Mapping, ModelAge, SafetyGate, ToolState, Wrench,
 };
-use hapflow_realtime::{LatestReader, LatestWriter, RingProducer, SharedFlags};
+use hapflow_realtime::{HostClock, LatestReader, LatestWriter, RingProducer, SharedFlags};
+use std::sync::Arc;
 
 /// A tool state with its time, as the fluid gets it.
 #[derive(Clone, Copy, Debug)]
@@ -62,6 +63,8 @@ pub struct ServoUnit {
     pub(crate) newest: ServoReport,
     pub(crate) last_device: ToolState,
     pub(crate) started_s: f64,
+    /// The clock of an owned fluid under a host's servo: every tick moves it on.
+    pub(crate) pace: Option<Arc<HostClock>>,
 }
 
 impl std::fmt::Debug for ServoUnit {
@@ -82,6 +85,10 @@ impl ServoUnit {
             self.started_s = time_s;
         }
         let faults = self.take_input(device, time_s);
+        if let Some(clock) = &self.pace {
+            // Negative and NaN become 0, which moves nothing.
+            clock.set_ns((time_s * 1e9) as u64);
+        }
         let tool = self.mapping.to_scene(self.last_device);
         let lost = self.path.push(PathSample { time_s, tool });
         let new_frame = self.model.update();

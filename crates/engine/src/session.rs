@@ -10,7 +10,7 @@ use hapflow_devices::{AtEnd, HapticDevice, Motion, NullDevice, Replay, Simulated
 use hapflow_fluid::{AnalyticJet, BodySample, CpuBackend, FluidBackend, FluidConfig, ParticleView};
 use hapflow_haptics::{FaultSet, Filter, LocalModel, SafetyGate, ToolState};
 use hapflow_realtime::{
-    Clock, LatestReader, LatestWriter, RealtimeStatus, RingConsumer, SharedFlags, latest, ring,
+    Clock, HostClock, LatestReader, LatestWriter, RealtimeStatus, RingConsumer, SharedFlags, latest, ring,
 };
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -35,7 +35,8 @@ pub struct SessionOptions {
     pub threads: usize,
     /// The device of an owned servo.
     pub device: Option<Box<dyn HapticDevice>>,
-    /// The clock of owned threads.
+    /// The clock of owned threads. An owned fluid under a host's servo keeps the servo's time instead: its
+    /// ticks say what time it is.
     pub clock: Arc<dyn Clock>,
     /// Ticks that a recording may fall behind; 0 records nothing. See [`Session::take_tape`].
     pub tape: usize,
@@ -248,6 +249,7 @@ impl Session {
             tape: tape_in,
             newest: ServoReport::default(),
             started_s: 0.0,
+            pace: None,
         };
         let live = Live::of(scene, threads);
         let fluid = FluidUnit {
@@ -285,10 +287,15 @@ impl Session {
 
     fn start(&mut self, options: SessionOptions) -> Result<(), SceneError> {
         let SessionOptions { servo_drive, fluid_drive, device, clock, .. } = options;
-        if let (Drive::Owned, Some(fluid)) =
-            (fluid_drive, self.fluid.take_if(|_| fluid_drive == Drive::Owned))
-        {
-            self.owned.fluid = Some(FluidThread::start(fluid, Arc::clone(&clock))?);
+        if let Some(fluid) = self.fluid.take_if(|_| fluid_drive == Drive::Owned) {
+            self.owned.fluid = Some(match &mut self.servo {
+                Some(servo) if servo_drive == Drive::Host => {
+                    let host = Arc::new(HostClock::new());
+                    servo.pace = Some(Arc::clone(&host));
+                    FluidThread::start(fluid, Arc::clone(&host) as Arc<dyn Clock>, Some(host))?
+                }
+                _ => FluidThread::start(fluid, Arc::clone(&clock), None)?,
+            });
         }
         if servo_drive == Drive::Owned {
             let device = device.ok_or_else(|| SceneError::Refused("an owned servo needs a device".into()))?;

@@ -6,8 +6,8 @@ use crate::servo::ServoUnit;
 use hapflow_devices::HapticDevice;
 use hapflow_haptics::{FaultSet, GatedWrench};
 use hapflow_realtime::{
-    Clock, LatestReader, LatestWriter, RealtimeStatus, RealtimeThread, latest, set_normal_priority,
-    spawn_realtime,
+    Clock, HostClock, LatestReader, LatestWriter, RealtimeStatus, RealtimeThread, latest,
+    set_normal_priority, spawn_realtime,
 };
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -160,10 +160,16 @@ pub struct FluidThread {
     stop: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
     pace: LatestReader<FluidPace>,
+    /// The host's clock, if it keeps that: closed at the end, or the thread would wait for a tick.
+    host: Option<Arc<HostClock>>,
 }
 
 impl FluidThread {
-    pub(crate) fn start(fluid: FluidUnit, clock: Arc<dyn Clock>) -> Result<Self, SceneError> {
+    pub(crate) fn start(
+        fluid: FluidUnit,
+        clock: Arc<dyn Clock>,
+        host: Option<Arc<HostClock>>,
+    ) -> Result<Self, SceneError> {
         let stop = Arc::new(AtomicBool::new(false));
         let theirs = Arc::clone(&stop);
         let (writer, pace) = latest(FluidPace::default());
@@ -171,12 +177,15 @@ impl FluidThread {
             .name("hapflow-fluid".into())
             .spawn(move || fluid_thread(fluid, &*clock, &theirs, writer))
             .map_err(|cause| SceneError::Thread { name: "fluid", cause })?;
-        Ok(Self { stop, thread: Some(thread), pace })
+        Ok(Self { stop, thread: Some(thread), pace, host })
     }
 
     /// Stops it after its frame, and says how it kept up.
     pub fn stop(&mut self) -> FluidPace {
         self.stop.store(true, Ordering::Release);
+        if let Some(clock) = &self.host {
+            clock.close();
+        }
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
@@ -212,6 +221,9 @@ fn fluid_loop(
     let mut end = clock.now_ns() + period;
     while !stop.load(Ordering::Acquire) {
         clock.wait_until_ns(end);
+        if stop.load(Ordering::Acquire) {
+            return;
+        }
         fluid.compute(end as f64 * 1e-9);
         let now = clock.now_ns();
         fluid.publish(now as f64 * 1e-9);

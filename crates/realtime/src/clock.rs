@@ -1,8 +1,10 @@
 //! Time as the loops see it: nanoseconds since a clock's start, real or virtual.
 
+mod host;
 mod real;
 mod simulated;
 
+pub use host::HostClock;
 pub use real::{DEFAULT_SPIN_MARGIN, RealClock};
 pub use simulated::VirtualClock;
 

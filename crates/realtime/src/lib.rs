@@ -9,7 +9,8 @@
 //! | every value in order, the oldest go on overflow | [`ring()`] | wait-free | lock-free |
 //! | bits that any thread raises | [`SharedFlags`] | wait-free | wait-free |
 //!
-//! Time comes from a [`Clock`]: [`RealClock`] for a hand, [`VirtualClock`] for tests and replays. Threads that
+//! Time comes from a [`Clock`]: [`RealClock`] for a hand, [`HostClock`] for a
+//! host's servo, [`VirtualClock`] for tests and replays. Threads that
 //! must keep time come from [`spawn_realtime`], which goes on without the priority where the system refuses it,
 //! and says why.
 //!
@@ -31,7 +32,7 @@ mod status;
 mod sync;
 mod thread;
 
-pub use clock::{Clock, DEFAULT_SPIN_MARGIN, RealClock, VirtualClock, process_cpu_s};
+pub use clock::{Clock, DEFAULT_SPIN_MARGIN, HostClock, RealClock, VirtualClock, process_cpu_s};
 pub use flags::SharedFlags;
 pub use latest::{LatestReader, LatestWriter, latest, latest_with};
 pub use memory::{lock_memory, unlock_memory};
