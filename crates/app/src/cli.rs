@@ -25,7 +25,8 @@ Examples:
   hapflow run tap --set fluid.viscosity=0.1 --set source.tap.speed=2
   hapflow run tap --motion tremor             a recorded hand instead of the simulated one
   hapflow run my-scene.toml --realtime        your own scene, in real time
-  hapflow scenes --settings                   every setting with its unit, range and default";
+  hapflow scenes --settings                   every setting with its unit, range and default
+  hapflow doctor                              check this machine, and say what to do";
 
 /// The commands.
 #[derive(Debug, Subcommand)]
@@ -36,6 +37,8 @@ pub enum Command {
     Scenes(ScenesArgs),
     /// List the devices that can move the tool.
     Devices,
+    /// Check this machine and say what to do: cores, SIMD, real-time rights, timer, USB, output.
+    Doctor(DoctorArgs),
 }
 
 impl Default for Command {
@@ -71,7 +74,7 @@ pub struct RunArgs {
     /// Run in real time, with a live force meter; else as fast as it goes, the same each time.
     #[arg(long)]
     pub realtime: bool,
-    /// Worker threads of the fluid; 0 takes all cores but one in real time, all of them otherwise.
+    /// Worker threads of the fluid; 0 takes all cores, in real time all but one (of two both).
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub threads: usize,
     /// Set any setting; may be repeated. `hapflow scenes --settings` lists them.
@@ -93,6 +96,14 @@ pub struct ScenesArgs {
     pub settings: bool,
 }
 
+/// Arguments of `doctor`.
+#[derive(Debug, Args)]
+pub struct DoctorArgs {
+    /// Print a JSON array of {check, state, found, advice} instead; state is ok, warning or missing.
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// Help and version go to the reader whole; anything else is one clear line and exit code 2.
 pub fn explain(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
@@ -105,4 +116,21 @@ pub fn explain(error: &clap::Error) -> ExitCode {
     let tip = lines.find(|l| l.starts_with("tip:")).map(|l| format!("; {l}")).unwrap_or_default();
     eprintln!("hapflow: {first}{tip} (hapflow --help tells more)");
     ExitCode::from(2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_words_are_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn doctor_takes_json() {
+        let parsed = Cli::try_parse_from(["hapflow", "doctor", "--json"]).unwrap();
+        assert!(matches!(parsed.command, Some(Command::Doctor(DoctorArgs { json: true }))));
+    }
 }

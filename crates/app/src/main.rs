@@ -1,9 +1,11 @@
-//! The program `hapflow`: runs scenes, lists scenes and devices.
+//! The program `hapflow`: runs scenes, lists scenes and devices, checks the machine.
 //!
-//! Exit codes: 0 done, 1 a run that failed, 2 words, values or folders that cannot be used.
+//! Exit codes: 0 done, 1 a run that failed or a machine that lacks something, 2 words, values or folders that
+//! cannot be used.
 #![forbid(unsafe_code)]
 
 mod cli;
+mod doctor;
 mod draw;
 mod list;
 mod meter;
@@ -20,7 +22,7 @@ fn main() -> ExitCode {
         Err(error) => return cli::explain(&error),
     };
     match dispatch(cli) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(failure) => {
             eprintln!("hapflow: {failure}");
             ExitCode::from(failure.code())
@@ -28,16 +30,13 @@ fn main() -> ExitCode {
     }
 }
 
-fn dispatch(cli: cli::Cli) -> Result<(), run::Failure> {
+fn dispatch(cli: cli::Cli) -> Result<ExitCode, run::Failure> {
     match cli.command.unwrap_or_default() {
-        cli::Command::Run(args) => run::run(&args),
-        cli::Command::Scenes(args) => {
-            list::scenes(args.settings);
-            Ok(())
-        }
-        cli::Command::Devices => {
-            list::devices();
-            Ok(())
-        }
+        cli::Command::Run(args) => run::run(&args)?,
+        cli::Command::Scenes(args) => list::scenes(args.settings),
+        cli::Command::Devices => list::devices(),
+        cli::Command::Doctor(args) if doctor::doctor(&args) => {}
+        cli::Command::Doctor(_) => return Ok(ExitCode::FAILURE),
     }
+    Ok(ExitCode::SUCCESS)
 }

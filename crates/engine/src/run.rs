@@ -29,7 +29,7 @@ pub struct Progress<'a> {
 
 /// How to run.
 pub struct RunOptions<'a> {
-    /// Worker threads of the fluid; 0 takes all cores but one.
+    /// Worker threads of the fluid; 0 takes all cores but one, and of two both.
     pub threads: usize,
     /// Times at which the particles are kept, s, in order.
     pub pictures_at: &'a [f64],

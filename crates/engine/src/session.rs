@@ -31,7 +31,7 @@ pub struct SessionOptions {
     pub servo_drive: Drive,
     /// Who steps the fluid.
     pub fluid_drive: Drive,
-    /// Worker threads of the fluid; 0 takes all cores but one.
+    /// Worker threads of the fluid; 0 takes all cores but one, and of two both.
     pub threads: usize,
     /// The device of an owned servo.
     pub device: Option<Box<dyn HapticDevice>>,
@@ -389,9 +389,9 @@ impl Drop for Session {
     }
 }
 
-/// All cores but one, which the servo needs.
+/// All cores but one, which the servo needs; of two, both: the servo takes precedence and little time.
 fn default_threads() -> usize {
-    std::thread::available_parallelism().map_or(1, |n| n.get().saturating_sub(1)).max(1)
+    std::thread::available_parallelism().map_or(1, |n| (n.get() - 1).max(n.get().min(2)))
 }
 
 fn open_backend(scene: &Scene, config: &FluidConfig) -> Result<Box<dyn FluidBackend>, SceneError> {
