@@ -4,6 +4,7 @@
 
 mod c_support;
 
+use c_support::header::prototypes;
 use c_support::{Variant, compile, library, root, scratch};
 use glam::DVec3;
 use hapflow::engine::{Scene, Session, SessionOptions, Value, load, settings};
@@ -26,17 +27,6 @@ fn the_header_is_clean_alone_and_included_twice_in_c_and_in_cpp() {
     }
 }
 
-/// The header's prototypes: name, and the comment above.
-fn prototypes() -> Vec<(String, String)> {
-    let header = fs::read_to_string(root().join("include/hapflow/hapflow.h")).unwrap();
-    let name = |after: &str| after.split_once('(').unwrap().0.rsplit([' ', '*']).next().unwrap().to_string();
-    let comment = |before: &str| before.rsplit_once("/*").unwrap().1.to_string();
-    header
-        .match_indices("\nHAPFLOW_API ")
-        .map(|(at, _)| (name(&header[at + 13..]), comment(&header[..at])))
-        .collect()
-}
-
 #[test]
 fn what_is_exported_is_what_the_header_declares_and_nothing_else() {
     let nm =
@@ -44,14 +34,15 @@ fn what_is_exported_is_what_the_header_declares_and_nothing_else() {
     let listed = String::from_utf8(nm.stdout).unwrap();
     let exported: BTreeSet<_> =
         listed.lines().filter_map(|l| l.rsplit(' ').next()).map(String::from).collect();
-    let declared: BTreeSet<_> = prototypes().into_iter().map(|p| p.0).collect();
+    let declared: BTreeSet<_> = prototypes().into_iter().map(|p| p.name).collect();
     assert_eq!(exported, declared);
     assert!(exported.len() > 15 && exported.iter().all(|name| name.starts_with("hapflow_")));
 }
 
 #[test]
 fn every_function_states_its_thread_class() {
-    for (name, comment) in prototypes() {
+    for prototype in prototypes() {
+        let (name, comment) = (prototype.name, prototype.comment);
         let classes =
             ["[main", "[servo]", "[fluid]", "[any]"].iter().filter(|c| comment.contains(**c)).count();
         assert_eq!(classes, 1, "{name}: {comment}");

@@ -4,7 +4,7 @@
 
 mod c_support;
 
-use c_support::{Api, JET, Report, Session, SessionConfig, ToolState, Variant, Wrench, code};
+use c_support::{Api, JET, Random, Report, Session, SessionConfig, ToolState, Variant, Wrench, code};
 use hapflow::engine::parse;
 use hapflow::engine::run::{RunOptions, virtual_clock};
 use hapflow::haptics::FaultSet;
@@ -298,6 +298,76 @@ fn structs_of_other_sizes_are_taken_as_far_as_they_go() {
     assert_eq!((api.session_report)(session, report.as_mut_ptr().cast()), code::STRUCT);
 }
 
+/// Bytes that an init function has no business with.
+const UNTOUCHED: u8 = 0x5a;
+
+/// Makes structs of every size, older than the first, newer, and such as cannot be.
+fn init_at_every_size<T>(first: usize, init: extern "C" fn(*mut T, u32) -> i32) {
+    for size in (0..4200_usize).chain([1 << 16, u32::MAX as usize]) {
+        let mut memory = [UNTOUCHED; 4300];
+        // At an odd address.
+        let result = init(memory[1..].as_mut_ptr().cast(), size as u32);
+        let made = if (first..=4096).contains(&size) { size } else { 0 };
+        assert_eq!(result, if made > 0 { code::OK } else { code::STRUCT }, "{size}");
+        assert!(memory[0] == UNTOUCHED && memory[1 + made..].iter().all(|b| *b == UNTOUCHED), "{size}");
+        assert!(made <= first || memory[1 + first..1 + made].iter().all(|b| *b == 0), "{size}");
+    }
+}
+
+#[test]
+fn every_init_function_takes_newer_sizes_and_writes_no_further() {
+    let api = ready();
+    init_at_every_size(56, api.session_config_init);
+    init_at_every_size(136, api.tool_state_init);
+    init_at_every_size(280, api.report_init);
+    init_at_every_size(32, api.scene_info_init);
+    init_at_every_size(40, api.device_info_init);
+    init_at_every_size(80, api.setting_info_init);
+}
+
+#[test]
+fn a_configuration_of_a_newer_header_is_taken_if_it_asks_for_nothing_new() {
+    let api = ready();
+    let toml = CString::new(JET).unwrap();
+    for (size, last, expected) in
+        [(64, 0, code::OK), (4096, 0, code::OK), (64, 1, code::UNSUPPORTED), (4096, 1, code::UNSUPPORTED)]
+    {
+        let mut memory = [0_u64; 512];
+        let config: *mut SessionConfig = memory.as_mut_ptr().cast();
+        assert_eq!((api.session_config_init)(config, size), code::OK);
+        // SAFETY: the memory is larger than the struct.
+        unsafe { (*config).toml = toml.as_ptr() };
+        memory[size as usize / 8 - 1] = last;
+        let mut session = Session::default();
+        assert_eq!((api.session_create)(memory.as_ptr().cast(), &mut session), expected, "{size}");
+    }
+    for size in [0, 8, 55, 4097, u32::MAX] {
+        let config = SessionConfig { size, toml: toml.as_ptr(), ..api.config() };
+        assert_eq!((api.session_create)(&config, &mut Session::default()), code::STRUCT);
+    }
+}
+
+#[test]
+fn no_foreign_handle_is_taken() {
+    let (api, mut random) = (ready(), Random(7));
+    let known: Vec<_> = (0..3).map(|_| api.jet()).collect();
+    let state = api.state(1);
+    for n in 0..100_000 {
+        // Any number; one with a slot that there is; a known one with a bit turned over.
+        let id = match n % 3 {
+            0 => random.next(),
+            1 => random.below(1 << 32) << 32 | (1 + random.below(64)),
+            _ => random.of(&known).id ^ 1 << random.below(64),
+        };
+        let session = Session { id };
+        if !known.contains(&session) {
+            assert_eq!(api.tick(session, &state), (code::HANDLE, Wrench::ZERO), "{id:#x}");
+            assert_eq!((api.session_destroy)(session), code::HANDLE);
+        }
+    }
+    known.iter().for_each(|session| assert_eq!(api.tick(*session, &state).0, code::OK));
+}
+
 #[test]
 fn fluid_times_are_checked() {
     let api = ready();
@@ -394,13 +464,33 @@ fn two_sessions_know_nothing_of_each_other() {
 }
 
 #[test]
-fn sessions_come_and_go_and_a_full_table_says_so() {
+fn a_thousand_sessions_come_and_go_and_leave_nothing() {
     let api = ready();
-    for _ in 0..200 {
+    let mut before = 0;
+    for n in 0..1000 {
         let session = api.jet();
         api.run(session, 0, 2);
+        assert!(api.settings(session).len() > 60);
         assert_eq!((api.session_destroy)(session), code::OK);
+        assert_eq!(api.tick(session, &api.state(3)), (code::HANDLE, Wrench::ZERO));
+        if n == 100 {
+            before = resident_kib();
+        }
     }
+    let grown = resident_kib().saturating_sub(before);
+    assert!(grown < 8 << 10, "{grown} KiB more after 900 sessions");
+}
+
+/// Memory of the process that is in use, KiB; 0 where it cannot be read.
+fn resident_kib() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|l| l.strip_prefix("VmRSS:"));
+    line.and_then(|l| l.trim().strip_suffix(" kB")?.trim().parse().ok()).unwrap_or(0)
+}
+
+#[test]
+fn a_full_table_says_so() {
+    let api = ready();
     let all: Vec<_> = (0..64).map(|_| api.jet()).collect();
     assert_eq!(api.try_create(JET), Err(code::FULL));
     assert_eq!((api.session_destroy)(all[31]), code::OK);

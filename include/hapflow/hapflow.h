@@ -101,6 +101,7 @@ enum {
     HAPFLOW_ERROR_ORIENTATION = -17, /* the length of the quaternion differs from 1 by more than 1e-3 */
     HAPFLOW_ERROR_TIME = -18, /* a time goes back, is negative, or is too far ahead */
     HAPFLOW_ERROR_FAULTED = -19, /* the fluid panicked before: destroy the session */
+    HAPFLOW_ERROR_INDEX = -20, /* an index that is not below the count */
 };
 
 /* A sentence on a result, in English. [any] Never null; lasts as long as the process; any number may be asked. */
@@ -122,6 +123,71 @@ HAPFLOW_API hapflow_result hapflow_negotiate(uint32_t oldest, uint32_t newest, u
 
 /* The release of the library: major * 1000000 + minor * 1000 + patch. [any] Needs no negotiation. */
 HAPFLOW_API uint32_t hapflow_version(void);
+
+/* ------------------------------------------------------------------------------------------- what the build has */
+
+/* What this library is and has, one `key = value` a line. [main, several at once] Needs no negotiation. `text`,
+ * `capacity` and `length` as in hapflow_last_error. Lists are separated by one space, and may be empty; keys may
+ * come to it, and have no order:
+ *
+ *     version     release, as 0.1.0
+ *     abi         every version of this interface that it speaks
+ *     target      processor, operating system
+ *     features    optional parts of the build
+ *     backends    words of the setting run.backend; likewise
+ *     solvers     of fluid.solver
+ *     modes       of fluid.mode
+ *     couplings   of run.coupling
+ *     tools       of tool.shape
+ *     devices     names of the devices
+ *     scenes      names of the shipped scenes
+ *
+ * Errors: NULL. */
+HAPFLOW_API hapflow_result hapflow_build_info(char* text, size_t capacity, size_t* length);
+
+/* A scene that the library brings along. */
+typedef struct hapflow_scene_info {
+    uint32_t size; /* sizeof(hapflow_scene_info) */
+    uint32_t reserved; /* 0 */
+    const char* name; /* as hapflow_session_config.scene takes it. All three texts last as long as the process */
+    const char* about; /* one line about it */
+    const char* toml; /* the scene file */
+} hapflow_scene_info;
+#if UINTPTR_MAX > 0xffffffffu
+HAPFLOW_ASSERT_SIZE(hapflow_scene_info, 32);
+#endif
+
+/* Empties `info`, for a struct of `size` bytes: sizeof *info. [any] Errors: NULL, STRUCT. */
+HAPFLOW_API hapflow_result hapflow_scene_info_init(hapflow_scene_info* info, uint32_t size);
+
+/* How many scenes the library brings along. [main, several at once] Needs no negotiation. */
+HAPFLOW_API uint32_t hapflow_scene_count(void);
+
+/* The shipped scene `index`, from 0. [main, several at once] Needs no negotiation. Errors: NULL, STRUCT, INDEX. */
+HAPFLOW_API hapflow_result hapflow_scene_get(uint32_t index, hapflow_scene_info* info);
+
+/* A haptic device that the library knows; whether one is plugged in is not asked. */
+typedef struct hapflow_device_info {
+    uint32_t size; /* sizeof(hapflow_device_info) */
+    uint32_t sensed_dof; /* degrees of freedom that it measures, to 6; 3: the position alone */
+    uint32_t driven_dof; /* degrees of freedom that it drives, to 6; 3: the force alone */
+    uint32_t hardware; /* 1: a machine that a person holds; 0: simulated */
+    double max_force; /* largest force, N; 0 where nothing is felt */
+    const char* name; /* word of the setting run.device. Both texts last as long as the process */
+    const char* about; /* one line about it */
+} hapflow_device_info;
+#if UINTPTR_MAX > 0xffffffffu
+HAPFLOW_ASSERT_SIZE(hapflow_device_info, 40);
+#endif
+
+/* Empties `info`, for a struct of `size` bytes: sizeof *info. [any] Errors: NULL, STRUCT. */
+HAPFLOW_API hapflow_result hapflow_device_info_init(hapflow_device_info* info, uint32_t size);
+
+/* How many devices the library knows. [main, several at once] Needs no negotiation. */
+HAPFLOW_API uint32_t hapflow_device_count(void);
+
+/* The device `index`, from 0. [main, several at once] Needs no negotiation. Errors: NULL, STRUCT, INDEX. */
+HAPFLOW_API hapflow_result hapflow_device_get(uint32_t index, hapflow_device_info* info);
 
 /* ---------------------------------------------------------------------------------------------------- sessions */
 
@@ -183,6 +249,48 @@ HAPFLOW_API hapflow_result hapflow_session_get(hapflow_session session, const ch
  * Errors: HANDLE, BUSY, NULL, TEXT, SETTING. */
 HAPFLOW_API hapflow_result hapflow_session_get_text(hapflow_session session, const char* path, char* text,
                                                     size_t capacity, size_t* length);
+
+/* What a setting may be: hapflow_setting_info.kind. A kind that is not here can be shown and set as a text. */
+enum {
+    HAPFLOW_SETTING_NUMBER = 1, /* a number from min to max: hapflow_session_set */
+    HAPFLOW_SETTING_INTEGER = 2, /* the same, whole */
+    HAPFLOW_SETTING_SWITCH = 3, /* "true" or "false": hapflow_session_set_text */
+    HAPFLOW_SETTING_CHOICE = 4, /* one of `choices`: hapflow_session_set_text */
+    HAPFLOW_SETTING_TEXT = 5, /* a text with a grammar of its own, which `about` tells */
+    HAPFLOW_SETTING_VECTOR = 6, /* three numbers, each from min to max: hapflow_session_set_vector */
+};
+
+/* A setting of a session, with all that a panel needs to show it. The texts belong to the session, never change, and
+ * last until it is destroyed; none is null. */
+typedef struct hapflow_setting_info {
+    uint32_t size; /* sizeof(hapflow_setting_info) */
+    uint32_t kind; /* HAPFLOW_SETTING_... */
+    uint32_t live; /* 1: may change while the session runs; 0: only before it is made */
+    uint32_t reserved; /* 0 */
+    double min; /* smallest; 0 where kind says nothing of it */
+    double max; /* largest */
+    const char* path; /* as "fluid.viscosity", "source.tap.speed" */
+    const char* group; /* the path without its last word, as "source.tap" */
+    const char* unit; /* as "m/s"; UTF-8, as all texts are; empty for none */
+    const char* about; /* a sentence on what it does */
+    const char* choices; /* every word of a choice, separated by newlines; else empty */
+    const char* usual; /* its value where a scene says nothing, as hapflow_session_set_text takes it */
+} hapflow_setting_info;
+#if UINTPTR_MAX > 0xffffffffu
+HAPFLOW_ASSERT_SIZE(hapflow_setting_info, 80);
+#endif
+
+/* Empties `info`, for a struct of `size` bytes: sizeof *info. [any] Errors: NULL, STRUCT. */
+HAPFLOW_API hapflow_result hapflow_setting_info_init(hapflow_setting_info* info, uint32_t size);
+
+/* How many settings the session has: those of the scene, and those of each of its sources. [main] It stays as it is.
+ * Errors: HANDLE, BUSY, NULL. */
+HAPFLOW_API hapflow_result hapflow_session_setting_count(hapflow_session session, uint32_t* count);
+
+/* The setting `index`, from 0. [main] The order is that of the documentation, with sources at the end.
+ * Errors: HANDLE, BUSY, NULL, STRUCT, INDEX. */
+HAPFLOW_API hapflow_result hapflow_session_setting_info(hapflow_session session, uint32_t index,
+                                                        hapflow_setting_info* info);
 
 /* No force from the next tick on, until the faults are cleared. [any] Errors: HANDLE. */
 HAPFLOW_API hapflow_result hapflow_session_emergency_stop(hapflow_session session);
@@ -284,7 +392,7 @@ typedef struct hapflow_report {
     double force[3]; /* what left the gate, N */
     double torque[3]; /* N m */
     uint64_t model_frame; /* the fluid frame that the tick used; 0: none yet */
-    double model_age_s; /* its age, s; infinite while there is none */
+    double model_age_s; /* its age, s; while there is none, the time since the first tick */
     uint64_t fluid_frame; /* number of the newest fluid frame, from 1; 0: none yet */
     double fluid_time_s; /* fluid time at its end, s */
     uint64_t particles; /* particles at its end */

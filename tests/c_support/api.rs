@@ -78,6 +78,45 @@ pub struct Report {
     pub degraded: u64,
 }
 
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SceneInfo {
+    pub size: u32,
+    pub reserved: u32,
+    pub name: *const c_char,
+    pub about: *const c_char,
+    pub toml: *const c_char,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct DeviceInfo {
+    pub size: u32,
+    pub sensed_dof: u32,
+    pub driven_dof: u32,
+    pub hardware: u32,
+    pub max_force: f64,
+    pub name: *const c_char,
+    pub about: *const c_char,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SettingInfo {
+    pub size: u32,
+    pub kind: u32,
+    pub live: u32,
+    pub reserved: u32,
+    pub min: f64,
+    pub max: f64,
+    pub path: *const c_char,
+    pub group: *const c_char,
+    pub unit: *const c_char,
+    pub about: *const c_char,
+    pub choices: *const c_char,
+    pub usual: *const c_char,
+}
+
 macro_rules! functions {
     ($($name:ident: fn($($arg:ty),*) $(-> $out:ty)?;)+) => {
         /// The library, loaded. The functions are declared safe: a test gives them wrong values on purpose, but
@@ -113,6 +152,16 @@ functions! {
     session_set_text: fn(Session, *const c_char, *const c_char) -> i32;
     session_get: fn(Session, *const c_char, *mut f64) -> i32;
     session_get_text: fn(Session, *const c_char, *mut c_char, usize, *mut usize) -> i32;
+    build_info: fn(*mut c_char, usize, *mut usize) -> i32;
+    scene_info_init: fn(*mut SceneInfo, u32) -> i32;
+    scene_count: fn() -> u32;
+    scene_get: fn(u32, *mut SceneInfo) -> i32;
+    device_info_init: fn(*mut DeviceInfo, u32) -> i32;
+    device_count: fn() -> u32;
+    device_get: fn(u32, *mut DeviceInfo) -> i32;
+    setting_info_init: fn(*mut SettingInfo, u32) -> i32;
+    session_setting_count: fn(Session, *mut u32) -> i32;
+    session_setting_info: fn(Session, u32, *mut SettingInfo) -> i32;
     session_emergency_stop: fn(Session) -> i32;
     session_clear_faults: fn(Session) -> i32;
     session_report: fn(Session, *mut Report) -> i32;
@@ -147,13 +196,7 @@ impl Api {
     }
 
     pub fn config(&self) -> SessionConfig {
-        let mut config = std::mem::MaybeUninit::uninit();
-        let size = size_of::<SessionConfig>() as u32;
-        assert_eq!((self.session_config_init)(config.as_mut_ptr(), size), code::OK);
-        // SAFETY: the init function has filled it.
-        let mut config = unsafe { config.assume_init() };
-        config.threads = 1;
-        config
+        SessionConfig { threads: 1, ..made(self.session_config_init) }
     }
 
     /// Makes a session of a scene's text.
@@ -173,11 +216,7 @@ impl Api {
 
     /// A tool at rest in the origin, at tick `n`.
     pub fn state(&self, n: u64) -> ToolState {
-        let mut state = std::mem::MaybeUninit::uninit();
-        assert_eq!((self.tool_state_init)(state.as_mut_ptr(), size_of::<ToolState>() as u32), code::OK);
-        // SAFETY: the init function has filled it.
-        let state: ToolState = unsafe { state.assume_init() };
-        ToolState { time_s: n as f64 * 1e-3, ..state }
+        ToolState { time_s: n as f64 * 1e-3, ..made(self.tool_state_init) }
     }
 
     pub fn tick(&self, session: Session, state: &ToolState) -> (i32, Wrench) {
@@ -199,20 +238,36 @@ impl Api {
     }
 
     pub fn report(&self, session: Session) -> Report {
-        let mut report = std::mem::MaybeUninit::uninit();
-        assert_eq!((self.report_init)(report.as_mut_ptr(), size_of::<Report>() as u32), code::OK);
-        assert_eq!((self.session_report)(session, report.as_mut_ptr()), code::OK);
-        // SAFETY: the init function has filled it.
-        unsafe { report.assume_init() }
+        let mut report = made(self.report_init);
+        assert_eq!((self.session_report)(session, &mut report), code::OK);
+        report
     }
 
     /// The last error's message, by the two calls that the header asks for.
     pub fn error(&self) -> String {
-        let mut length = 0;
-        assert_eq!((self.last_error)(std::ptr::null_mut(), 0, &mut length), code::OK);
-        let mut buffer = vec![0_u8; length + 1];
-        assert_eq!((self.last_error)(buffer.as_mut_ptr().cast(), buffer.len(), &mut length), code::OK);
-        CStr::from_bytes_with_nul(&buffer).unwrap().to_str().unwrap().into()
+        in_two_calls(|text, capacity, length| (self.last_error)(text, capacity, length))
+    }
+
+    pub fn build_info(&self) -> String {
+        in_two_calls(|text, capacity, length| (self.build_info)(text, capacity, length))
+    }
+
+    pub fn get_text(&self, session: Session, path: &CStr) -> String {
+        in_two_calls(|text, capacity, length| {
+            (self.session_get_text)(session, path.as_ptr(), text, capacity, length)
+        })
+    }
+
+    /// Every setting of the session.
+    pub fn settings(&self, session: Session) -> Vec<SettingInfo> {
+        let mut count = 0;
+        assert_eq!((self.session_setting_count)(session, &mut count), code::OK);
+        let setting = |index| {
+            let mut info = made(self.setting_info_init);
+            assert_eq!((self.session_setting_info)(session, index, &mut info), code::OK);
+            info
+        };
+        (0..count).map(setting).collect()
     }
 
     pub fn set(&self, session: Session, path: &str, value: f64) -> i32 {
@@ -231,4 +286,28 @@ impl Api {
             failed => Err(failed),
         }
     }
+}
+
+/// A struct as its init function makes it.
+pub fn made<T>(init: extern "C" fn(*mut T, u32) -> i32) -> T {
+    let mut value = std::mem::MaybeUninit::uninit();
+    assert_eq!(init(value.as_mut_ptr(), size_of::<T>() as u32), code::OK);
+    // SAFETY: the init function has filled it.
+    unsafe { value.assume_init() }
+}
+
+/// A text by the two calls that the header asks for.
+fn in_two_calls(call: impl Fn(*mut c_char, usize, *mut usize) -> i32) -> String {
+    let mut length = 0;
+    assert_eq!(call(std::ptr::null_mut(), 0, &mut length), code::OK);
+    let mut buffer = vec![0_u8; length + 1];
+    assert_eq!(call(buffer.as_mut_ptr().cast(), buffer.len(), &mut length), code::OK);
+    CStr::from_bytes_with_nul(&buffer).unwrap().to_str().unwrap().into()
+}
+
+/// What the library shows.
+pub fn shown<'a>(text: *const c_char) -> &'a str {
+    assert!(!text.is_null());
+    // SAFETY: not null, and the header says for how long it is a text.
+    unsafe { CStr::from_ptr(text) }.to_str().unwrap()
 }

@@ -3,9 +3,14 @@
 
 mod api;
 mod build;
+pub mod header;
+mod random;
 
-pub use api::{Api, Report, Session, SessionConfig, ToolState, Wrench};
+pub use api::{
+    Api, DeviceInfo, Report, SceneInfo, Session, SessionConfig, SettingInfo, ToolState, Wrench, made, shown,
+};
 pub use build::{Variant, compile, library, root, scratch};
+pub use random::Random;
 
 /// Results by name, as the header has them.
 pub mod code {
@@ -33,6 +38,7 @@ pub mod code {
     pub const ORIENTATION: i32 = -17;
     pub const TIME: i32 = -18;
     pub const FAULTED: i32 = -19;
+    pub const INDEX: i32 = -20;
 }
 
 /// A jet in closed form on a ball at rest: a force at no cost.

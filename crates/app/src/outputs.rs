@@ -7,7 +7,7 @@ use crate::draw::{frame, image};
 use crate::summary::Summary;
 use glam::DVec3;
 use hapflow_engine::run::{Outcome, Picture};
-use hapflow_engine::{Row, Scene, SceneError, ToolShape};
+use hapflow_engine::{Row, Scene, SceneError, ToolShape, settings};
 use std::path::Path;
 
 /// Size of a frame picture.
@@ -54,7 +54,20 @@ fn write_pictures(folder: &Path, scene: &Scene, pictures: &[Picture]) -> Result<
     })
 }
 
+/// The scene with the changes that have been made until `time_s`.
+fn scene_at(scene: &Scene, time_s: f64) -> Scene {
+    let mut now = scene.clone();
+    for change in scene.changes.iter().filter(|c| c.at_s <= time_s) {
+        for (path, value) in &change.settings {
+            // Each was checked when the scene was read.
+            let _ = settings::set_live(&mut now, path, value);
+        }
+    }
+    now
+}
+
 fn draw(scene: &Scene, picture: &Picture) -> image::Image {
+    let scene = &scene_at(scene, picture.time_s);
     let view = &picture.particles;
     let speeds: Vec<f32> = view.velocities.iter().map(|v| glam::Vec3::from(*v).length()).collect();
     let containers: Vec<Box3> = scene
@@ -71,6 +84,15 @@ fn draw(scene: &Scene, picture: &Picture) -> image::Image {
             diameter: s.diameter as f32,
         })
         .collect();
+    let obstacles: Vec<Tool> = scene
+        .obstacles
+        .iter()
+        .map(|o| Tool {
+            shape: drawn(o.shape, o.radius, o.thickness),
+            position: o.position.as_vec3().to_array(),
+            orientation: [0.0, 0.0, 0.0, 1.0],
+        })
+        .collect();
     let caption =
         format!("{}   t = {:.2} s   {} particles", scene.name, picture.time_s, view.positions.len());
     let tool = &picture.servo.tool;
@@ -80,10 +102,11 @@ fn draw(scene: &Scene, picture: &Picture) -> image::Image {
             speeds: &speeds,
             spacing: scene.fluid.spacing as f32,
             tool: Tool {
-                shape: tool_shape(scene),
+                shape: drawn(scene.tool.shape, scene.tool.radius, scene.tool.thickness),
                 position: tool.position.as_vec3().to_array(),
                 orientation: tool.orientation.as_quat().to_array(),
             },
+            obstacles: &obstacles,
             containers: &containers,
             ground_y: scene.ground.map(|y| y as f32),
             sources: &sources,
@@ -96,9 +119,9 @@ fn draw(scene: &Scene, picture: &Picture) -> image::Image {
     )
 }
 
-fn tool_shape(scene: &Scene) -> Drawn {
-    let (radius, thickness) = (scene.tool.radius as f32, scene.tool.thickness as f32);
-    match scene.tool.shape {
+fn drawn(shape: ToolShape, radius: f64, thickness: f64) -> Drawn {
+    let (radius, thickness) = (radius as f32, thickness as f32);
+    match shape {
         ToolShape::Sphere => Drawn::Sphere { radius },
         ToolShape::Disc => Drawn::Disc { radius, thickness },
     }
@@ -111,6 +134,10 @@ fn framed(scene: &Scene) -> ([f32; 3], [f32; 3]) {
     let mut include = |a: DVec3, b: DVec3| (low, high) = (low.min(a), high.max(b));
     if let Some(c) = scene.container {
         include(c.inner.min, c.inner.max);
+    }
+    for o in &scene.obstacles {
+        let reach = DVec3::splat(o.radius.max(0.5 * o.thickness));
+        include(o.position - reach, o.position + reach);
     }
     for pool in &scene.pools {
         include(pool.min, pool.max);

@@ -124,6 +124,7 @@ fn tell(args: &RunArgs, scene: &Scene, outcome: &Outcome, summary: &Summary, fol
     let _ = writeln!(out, "{}: {}\n\n{}", scene.name, scene.about, summary.table(outcome));
     if let Some((status, pace)) = &outcome.realtime {
         let _ = writeln!(out, "  real-time priority     {}", status.priority);
+        let _ = writeln!(out, "  memory lock            {}", status.memory);
         let late = outcome.timing.ticks.late;
         let _ = writeln!(out, "  late ticks             {late}\n  skipped fluid frames   {}\n", pace.skipped);
     }

@@ -100,6 +100,7 @@ fn timing(outcome: &Outcome) -> Value {
         timing["late_ticks"] = json!(t.ticks.late);
         timing["skipped_fluid_frames"] = json!(pace.skipped);
         timing["realtime_priority"] = json!(status.priority.to_string());
+        timing["memory_lock"] = json!(status.memory.to_string());
     }
     timing
 }

@@ -6,7 +6,7 @@
 //! need not be aligned.
 
 use crate::code::{Code, Outcome};
-use std::ffi::{CStr, c_char};
+use std::ffi::{CStr, CString, c_char};
 
 /// Largest struct that is believed; what is larger was never initialised.
 const LARGEST: usize = 4096;
@@ -97,6 +97,11 @@ impl<T: Copy> Out<T> {
 }
 
 impl<T: Record> Out<T> {
+    /// Refuses null, and a size that cannot be, before any work is done.
+    pub fn check_record(self) -> Result<(), Code> {
+        said_size::<T>(self.0.cast()).map(drop)
+    }
+
     /// Writes as much of it as the caller's struct says that it holds; that size stays.
     pub fn fill(self, value: &T) -> Result<(), Code> {
         let size = said_size::<T>(self.0.cast())?;
@@ -130,6 +135,8 @@ impl<T: Record> Out<T> {
 impl Text {
     /// No text.
     pub const NULL: Self = Self(std::ptr::null());
+    /// An empty one.
+    pub const EMPTY: Self = Self(c"".as_ptr());
 
     pub fn is_null(self) -> bool {
         self.0.is_null()
@@ -159,6 +166,20 @@ impl Text {
         // SAFETY: not null, hence `length` bytes, which nobody writes during the call.
         let bytes = unsafe { std::slice::from_raw_parts(self.0.cast::<u8>(), length) };
         std::str::from_utf8(bytes).map_err(|_| Code::ERROR_TEXT)
+    }
+}
+
+/// A text that is made once and shown to C from then on. C texts end at a NUL, so that one inside becomes a space.
+pub struct Shown(CString);
+
+impl Shown {
+    pub fn new(text: &str) -> Self {
+        Self(CString::new(text.replace('\0', " ")).unwrap_or_default())
+    }
+
+    /// For C, which sees it for as long as `self` lives.
+    pub fn text(&self) -> Text {
+        Text(self.0.as_ptr())
     }
 }
 

@@ -2,11 +2,13 @@
 
 use crate::caller::{Out, Record, Text};
 use crate::code::{Code, Failure};
+use crate::contract::as_in_header;
 use crate::fence::fence;
+use crate::generated::HAPFLOW_KIND_SESSION_CONFIG;
 use hapflow_engine::{Scene, Value, load, parse, settings};
 use std::ffi::c_void;
 
-const KIND: u32 = 1;
+const KIND: u32 = HAPFLOW_KIND_SESSION_CONFIG;
 /// Most worker threads: more is a mistake, and might not come up.
 const MOST_THREADS: u32 = 1024;
 
@@ -25,13 +27,15 @@ pub struct SessionConfig {
     reserved: u32,
 }
 
-#[cfg(target_pointer_width = "64")]
-const _: () = assert!(size_of::<SessionConfig>() == 56);
+as_in_header!(
+    SessionConfig =
+        hapflow_session_config { kind, size, next, scene, toml, toml_length, settings, threads, reserved }
+);
 
 // SAFETY: repr(C), no padding with pointers of 4 or 8 bytes; every field takes any bits.
 unsafe impl Record for SessionConfig {
     const SIZE_AT: usize = 4;
-    const FIRST_SIZE: usize = size_of::<Self>();
+    const FIRST_SIZE: usize = 16 + 5 * size_of::<usize>();
 }
 
 impl SessionConfig {

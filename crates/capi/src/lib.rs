@@ -6,25 +6,33 @@
 //! |---|---|
 //! | `library` | versions, texts of results, the last error |
 //! | `session`, `servo`, `fluid` | the functions, by thread class |
-//! | `config`, `tool_state`, `wrench`, `report` | the header's structs |
+//! | `config`, `tool_state`, `wrench`, `report`, `setting_info` | the header's structs |
+//! | `build_info`, `catalog` | what the build has; shipped scenes and devices |
 //! | `code` | results |
+//! | `generated`, `contract` | the header in Rust, and the check that all this is as it says |
 //! | `fence` | panics end here |
 //! | `table`, `lane` | handles, and who may be where; the one static |
 //! | `caller` | the caller's memory |
 //!
 //! `unsafe` is in `lane`, `caller` and, for one line a struct, where the header's structs are.
 
+mod build_info;
 mod caller;
+mod catalog;
 mod code;
 mod config;
+mod contract;
 mod fence;
 mod fluid;
+#[rustfmt::skip]
+mod generated;
 mod hooks;
 mod lane;
 mod library;
 mod report;
 mod servo;
 mod session;
+mod setting_info;
 mod table;
 mod tool_state;
 mod wrench;

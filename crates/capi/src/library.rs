@@ -3,13 +3,14 @@
 use crate::caller::{Buffer, Out};
 use crate::code::Code;
 use crate::fence::fence;
+use crate::generated::HAPFLOW_ABI_VERSION;
 use crate::table::LIBRARY;
 use std::cell::RefCell;
 use std::ffi::c_char;
 
 /// The versions of the ABI that this library speaks.
-const OLDEST_ABI: u32 = 1;
-const NEWEST_ABI: u32 = 1;
+pub const OLDEST_ABI: u32 = 1;
+pub const NEWEST_ABI: u32 = HAPFLOW_ABI_VERSION;
 
 thread_local! {
     static LAST_ERROR: RefCell<String> = const { RefCell::new(String::new()) };

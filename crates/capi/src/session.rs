@@ -9,6 +9,7 @@ use crate::hooks;
 use crate::lane::Faultable;
 use crate::report::Report;
 use crate::servo::ServoSide;
+use crate::setting_info::{Panel, SettingInfo, plain};
 use crate::table::{Handle, LIBRARY, Parts};
 use glam::DVec3;
 use hapflow_engine::{Control, Scene, Session, SessionOptions, Value};
@@ -35,6 +36,16 @@ pub struct MainSide {
     session: Session,
     control: Control,
     alarm: Alarm,
+    /// Names of the scene's sources, which stay.
+    sources: Vec<String>,
+    /// Its settings, shown to C; made when it is first asked for.
+    panel: Option<Panel>,
+}
+
+impl MainSide {
+    fn panel(&mut self) -> &Panel {
+        self.panel.get_or_insert_with(|| Panel::new(&self.sources))
+    }
 }
 
 impl Faultable for MainSide {
@@ -63,11 +74,12 @@ fn open(scene: &Scene, threads: usize) -> Result<Parts, Failure> {
         return Err(Failure { code: Code::ERROR_SCENE, text: "the session's halves are taken".into() });
     };
     let (control, alarm) = (session.control(), Alarm(SharedFlags::new()));
+    let sources = scene.sources.iter().map(|s| s.name.clone()).collect();
     Ok(Parts {
         servo: ServoSide::new(servo, alarm.clone()),
         fluid: FluidSide::new(fluid, alarm.clone(), scene.run.fluid_hz),
         any: AnySide { control: control.clone(), alarm: alarm.clone() },
-        main: MainSide { session, control, alarm },
+        main: MainSide { session, control, alarm, sources, panel: None },
     })
 }
 
@@ -175,11 +187,27 @@ pub extern "C" fn hapflow_session_get_text(
     length: Out<usize>,
 ) -> Code {
     with_main(session, |side| {
-        let value = match side.session.get(path.read()?)? {
-            Value::Text(word) => word,
-            other => other.to_string(),
-        };
-        Ok(text.enumerate_text(capacity, length, &value)?)
+        let value = side.session.get(path.read()?)?;
+        Ok(text.enumerate_text(capacity, length, &plain(value))?)
+    })
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_setting_count(session: Handle, count: Out<u32>) -> Code {
+    with_main(session, |side| {
+        count.put(side.panel().len())?;
+        Ok(Code::OK)
+    })
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_setting_info(session: Handle, index: u32, info: Out<SettingInfo>) -> Code {
+    with_main(session, |side| {
+        info.check_record()?;
+        info.fill(&side.panel().get(index)?)?;
+        Ok(Code::OK)
     })
 }
 

@@ -1,15 +1,19 @@
 //! Handles, and the table of sessions behind them: the library's one static. (What else lasts is a thread's own
 //! last error.)
 
+use crate::catalog::Catalog;
 use crate::code::Code;
+use crate::contract::as_in_header;
 use crate::fluid::FluidSide;
+use crate::generated::HAPFLOW_MAX_SESSIONS;
 use crate::lane::{Alone, Claimed, Lane, Refused, Sharing};
 use crate::servo::ServoSide;
 use crate::session::{AnySide, MainSide};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Sessions at once: `HAPFLOW_MAX_SESSIONS`.
-pub const MAX_SESSIONS: usize = 64;
+pub const MAX_SESSIONS: usize = HAPFLOW_MAX_SESSIONS as usize;
 
 /// `hapflow_session`: slot + 1 in the lower half, generation in the upper; 0 is null.
 #[repr(C)]
@@ -18,7 +22,7 @@ pub struct Handle {
     id: u64,
 }
 
-const _: () = assert!(size_of::<Handle>() == 8);
+as_in_header!(Handle = hapflow_session { id });
 
 impl Handle {
     fn new(slot: usize, generation: u32) -> Self {
@@ -46,9 +50,10 @@ pub struct Parts {
     pub any: AnySide,
 }
 
-/// All that lasts: the version that was agreed on, and the sessions.
+/// All that lasts: the version that was agreed on, the texts on what the build has, and the sessions.
 pub struct Library {
     version: AtomicU32,
+    catalog: OnceLock<Catalog>,
     slots: [Slot; MAX_SESSIONS],
 }
 
@@ -65,7 +70,8 @@ impl From<Refused> for Code {
 
 impl Library {
     const fn new() -> Self {
-        Self { version: AtomicU32::new(0), slots: [const { Slot::vacant() }; MAX_SESSIONS] }
+        let slots = [const { Slot::vacant() }; MAX_SESSIONS];
+        Self { version: AtomicU32::new(0), catalog: OnceLock::new(), slots }
     }
 
     /// Notes the version that was agreed on.
@@ -76,6 +82,11 @@ impl Library {
     /// Refuses while no version was agreed on.
     pub fn negotiated(&self) -> Result<(), Code> {
         if self.version.load(Ordering::Acquire) == 0 { Err(Code::ERROR_NOT_NEGOTIATED) } else { Ok(()) }
+    }
+
+    /// What the build has; made when it is first asked for.
+    pub fn catalog(&self) -> &Catalog {
+        self.catalog.get_or_init(Catalog::new)
     }
 
     /// Puts a session into the first vacant slot.

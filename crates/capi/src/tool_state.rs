@@ -2,6 +2,7 @@
 
 use crate::caller::{Out, Record};
 use crate::code::Code;
+use crate::contract::as_in_header;
 use crate::fence::fence;
 use glam::{DQuat, DVec3};
 use hapflow_haptics::ToolState;
@@ -29,8 +30,20 @@ pub struct ToolStateIn {
     angular_velocity: [f64; 3],
 }
 
-const _: () = assert!(size_of::<ToolStateIn>() == 136);
-const _: () = assert!(std::mem::offset_of!(ToolStateIn, position) == 32);
+as_in_header!(
+    ToolStateIn = hapflow_tool_state {
+        size,
+        tool,
+        buttons,
+        reserved,
+        time_s,
+        dt_s,
+        position,
+        orientation,
+        velocity,
+        angular_velocity,
+    }
+);
 
 // SAFETY: repr(C), 16 bytes and fifteen f64: no padding; every field takes any bits.
 unsafe impl Record for ToolStateIn {

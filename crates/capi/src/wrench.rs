@@ -1,5 +1,6 @@
 //! `hapflow_wrench`: what the hand feels.
 
+use crate::contract::as_in_header;
 use hapflow_haptics::GatedWrench;
 
 /// `hapflow_wrench`. It never grows, so that it can be written, as zero, whatever else is wrong.
@@ -10,7 +11,7 @@ pub struct WrenchOut {
     torque: [f64; 3],
 }
 
-const _: () = assert!(size_of::<WrenchOut>() == 48);
+as_in_header!(WrenchOut = hapflow_wrench { force, torque });
 
 impl WrenchOut {
     /// No force and no torque.

@@ -1,5 +1,6 @@
 //! One fluid frame: newest settings, tool path, backend, local model. Thread: fluid, one at a time.
 
+use crate::obstacles::Obstacles;
 use crate::servo::PathSample;
 use crate::session::{Live, Shared};
 use glam::DVec3;
@@ -45,6 +46,7 @@ pub struct FluidUnit {
     pub(crate) pending: Option<LocalModel>,
     pub(crate) body: BodySample,
     pub(crate) samples: Vec<BodySample>,
+    pub(crate) obstacles: Obstacles,
     /// A sample that belongs to the next frame.
     pub(crate) ahead: Option<PathSample>,
     pub(crate) last: PathSample,
@@ -74,8 +76,12 @@ impl FluidUnit {
             Drive::Led => BodyDrive::Led,
             Drive::Driven { velocity } => BodyDrive::Driven { velocity },
         };
-        let motion = [BodyMotion { drive, path: &self.samples }];
-        self.backend.submit(&FrameInput { duration: self.frame_s, bodies: &motion });
+        let bodies = self.live.config.world.bodies.get(1..).unwrap_or_default();
+        let obstacles = self.obstacles.paths(bodies, end_s, self.frame_s);
+        let tool = std::iter::once(BodyMotion { drive, path: &self.samples });
+        let led = obstacles.iter().map(|path| BodyMotion { drive: BodyDrive::Led, path });
+        let motions: Vec<_> = tool.chain(led).collect();
+        self.backend.submit(&FrameInput { duration: self.frame_s, bodies: &motions });
         let output = loop {
             match self.backend.poll() {
                 Some(output) => break output,
@@ -122,12 +128,8 @@ impl FluidUnit {
         // Main has checked them; a backend that still refuses keeps its old ones and says so.
         match self.backend.configure(&live.config) {
             Ok(()) => self.live = live,
-            Err(_) => self.flags_refused(),
+            Err(_) => self.newest.degraded += 1,
         }
-    }
-
-    fn flags_refused(&mut self) {
-        self.newest.degraded += 1;
     }
 
     fn body_state(&self) -> BodyState {

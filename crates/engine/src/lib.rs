@@ -16,6 +16,7 @@
 mod builtin;
 mod error;
 mod fluid_unit;
+mod obstacles;
 mod recording;
 pub mod run;
 mod scene;
@@ -30,12 +31,14 @@ mod value;
 pub use builtin::{load, shipped};
 pub use error::SceneError;
 pub use fluid_unit::{FluidReport, FluidUnit};
+pub use obstacles::ObstacleMover;
 pub use recording::{Recording, Row};
 pub use scene::{
-    BackendKind, Change, DeviceKind, MappingSettings, RunSettings, Scene, ToolSettings, ToolShape,
+    BackendKind, Change, DeviceKind, MAX_OBSTACLES, MappingSettings, Obstacle, RunSettings, Scene,
+    ToolSettings, ToolShape,
 };
 pub use scene_file::parse;
 pub use servo::{ServoReport, ServoUnit};
 pub use session::{Control, Drive, Session, SessionOptions, open_device};
-pub use threads::{FluidPace, TickTimes};
+pub use threads::{FluidPace, SERVO_PRIORITY, TickTimes};
 pub use value::Value;

@@ -75,6 +75,32 @@ pub struct ToolSettings {
     pub force_scale: f64,
 }
 
+/// Most obstacles in a scene.
+pub const MAX_OBSTACLES: usize = 32;
+
+/// Something solid that stands in the fluid, or that the host moves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Obstacle {
+    /// Name by which settings address it.
+    pub name: String,
+    /// Its shape.
+    pub shape: ToolShape,
+    /// Radius, m.
+    pub radius: f64,
+    /// Thickness of a disc, m.
+    pub thickness: f64,
+    /// Where it is, m, until the host moves it.
+    pub position: DVec3,
+}
+
+impl Default for Obstacle {
+    /// A ball of 20 mm radius in the origin.
+    fn default() -> Self {
+        let shape = ToolShape::Sphere;
+        Self { name: "0".into(), shape, radius: 0.02, thickness: 0.01, position: DVec3::ZERO }
+    }
+}
+
 /// From device to scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MappingSettings {
@@ -122,6 +148,8 @@ pub struct Scene {
     pub sinks: Vec<Aabb>,
     /// Boxes filled with fluid at the start.
     pub pools: Vec<Aabb>,
+    /// What else is solid.
+    pub obstacles: Vec<Obstacle>,
     /// The tool.
     pub tool: ToolSettings,
     /// The safety gate.
@@ -157,6 +185,7 @@ impl Default for Scene {
             sources: Vec::new(),
             sinks: Vec::new(),
             pools: Vec::new(),
+            obstacles: Vec::new(),
             tool: ToolSettings {
                 shape: ToolShape::Sphere,
                 radius: 0.015,
@@ -199,7 +228,7 @@ impl Scene {
                 sources: self.sources.clone(),
                 sinks: self.sinks.clone(),
                 pools: self.pools.clone(),
-                bodies: vec![tool],
+                bodies: std::iter::once(tool).chain(self.obstacles.iter().map(obstacle_body)).collect(),
             },
             frame_hz: self.run.fluid_hz,
             threads,
@@ -241,6 +270,7 @@ impl Scene {
     /// The first thing that is wrong, with its field, value and range.
     pub fn check(&self) -> Result<(), SceneError> {
         self.fluid_config(1).check()?;
+        self.check_names()?;
         self.check_tool_mass()?;
         self.gate.check()?;
         self.hand.check()?;
@@ -248,6 +278,26 @@ impl Scene {
         self.mapping()?;
         for (k, change) in self.changes.iter().enumerate() {
             self.check_change(k, change)?;
+        }
+        Ok(())
+    }
+
+    /// Settings address sources and obstacles by name.
+    fn check_names(&self) -> Result<(), SceneError> {
+        if self.obstacles.len() > MAX_OBSTACLES {
+            let count = self.obstacles.len();
+            return Err(SceneError::Refused(format!("{count} obstacles: there may be {MAX_OBSTACLES}")));
+        }
+        let sources: Vec<_> = self.sources.iter().map(|s| s.name.as_str()).collect();
+        let obstacles: Vec<_> = self.obstacles.iter().map(|o| o.name.as_str()).collect();
+        for (kind, names) in [("source", sources), ("obstacle", obstacles)] {
+            if let Some(name) =
+                (1..names.len()).find_map(|k| names[..k].contains(&names[k]).then_some(names[k]))
+            {
+                return Err(SceneError::Refused(format!(
+                    "{kind} name = \"{name}\": two of them; names must differ"
+                )));
+            }
         }
         Ok(())
     }
@@ -276,12 +326,29 @@ impl Scene {
     }
 }
 
+impl ToolShape {
+    /// The shape of these sizes, m.
+    fn sized(self, radius: f64, thickness: f64) -> Shape {
+        match self {
+            Self::Sphere => Shape::Sphere { radius },
+            Self::Disc => Shape::Disc { radius, thickness },
+        }
+    }
+}
+
 impl ToolSettings {
     /// The shape, with its sizes.
     pub fn shape(&self) -> Shape {
-        match self.shape {
-            ToolShape::Sphere => Shape::Sphere { radius: self.radius },
-            ToolShape::Disc => Shape::Disc { radius: self.radius, thickness: self.thickness },
-        }
+        self.shape.sized(self.radius, self.thickness)
+    }
+}
+
+fn obstacle_body(obstacle: &Obstacle) -> BodyConfig {
+    BodyConfig {
+        shape: obstacle.shape.sized(obstacle.radius, obstacle.thickness),
+        // It is led: its mass plays no part.
+        mass: 1.0,
+        collision_response: 0.0,
+        position: obstacle.position,
     }
 }

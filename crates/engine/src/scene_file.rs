@@ -1,7 +1,7 @@
 //! Reading a scene from TOML. Every error names the file, the line, the field, the value and what it must be.
 
-use crate::scene::{Change, Scene};
-use crate::settings::{self, SOURCE_SETTINGS, Setting};
+use crate::scene::{Change, Obstacle, Scene};
+use crate::settings::{self, OBSTACLE_SETTINGS, SOURCE_SETTINGS, Setting};
 use crate::{SceneError, Value};
 use glam::DVec3;
 use hapflow_devices::{HandPreset, HandSettings, Segment};
@@ -18,14 +18,14 @@ pub fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
     let root =
         DeTable::parse(text).map_err(|e| reader.error_at(e.span().map_or(0, |s| s.start), e.message()))?;
     let mut scene = Scene { name: file.to_string(), ..Scene::default() };
-    // Sources first: settings and changes address them by name.
-    for key in ["source", "hand"] {
+    // What has a name first: settings and changes address them by name.
+    for key in NAMED {
         if let Some((at, value)) = root.get_ref().get_key_value(key) {
             reader.section(&mut scene, at.get_ref(), value)?;
         }
     }
     for (key, value) in root.get_ref() {
-        if !["source", "hand"].contains(&key.get_ref().as_ref()) {
+        if !NAMED.contains(&key.get_ref().as_ref()) {
             reader.section(&mut scene, key.get_ref(), value)?;
         }
     }
@@ -42,7 +42,10 @@ struct Reader<'a> {
 type Item<'i> = Spanned<DeValue<'i>>;
 
 /// The tables that are not settings.
-const SECTIONS: [&str; 6] = ["container", "bounds", "source", "pool", "sink", "change"];
+const SECTIONS: [&str; 7] = ["container", "bounds", "source", "obstacle", "pool", "sink", "change"];
+
+/// Those that are read first.
+const NAMED: [&str; 3] = ["source", "obstacle", "hand"];
 
 impl Reader<'_> {
     fn error_at(&self, offset: usize, what: &str) -> SceneError {
@@ -78,9 +81,21 @@ impl Reader<'_> {
             ("pool", DeValue::Array(list)) => scene.pools = self.boxes(key, list)?,
             ("sink", DeValue::Array(list)) => scene.sinks = self.boxes(key, list)?,
             ("source", DeValue::Array(list)) => {
-                for (k, source) in list.iter().enumerate() {
-                    let source = self.source(k, source)?;
+                for (k, item) in list.iter().enumerate() {
+                    let mut source = Source { name: k.to_string(), ..Source::default() };
+                    if let Some(name) = self.named("source", item, SOURCE_SETTINGS, &mut source)? {
+                        source.name = name;
+                    }
                     scene.sources.push(source);
+                }
+            }
+            ("obstacle", DeValue::Array(list)) => {
+                for (k, item) in list.iter().enumerate() {
+                    let mut obstacle = Obstacle { name: k.to_string(), ..Obstacle::default() };
+                    if let Some(name) = self.named("obstacle", item, OBSTACLE_SETTINGS, &mut obstacle)? {
+                        obstacle.name = name;
+                    }
+                    scene.obstacles.push(obstacle);
                 }
             }
             ("change", DeValue::Array(list)) => {
@@ -178,20 +193,27 @@ impl Reader<'_> {
         list.iter().map(read).collect()
     }
 
-    fn source(&self, index: usize, item: &Item<'_>) -> Result<Source, SceneError> {
-        let DeValue::Table(table) = item.get_ref() else {
-            return self.wrong(item, "source must be a table: [[source]]");
+    /// Reads one of several things with names; returns its name, if it has one of its own.
+    fn named<T>(
+        &self,
+        kind: &str,
+        item: &Item<'_>,
+        table: &[Setting<T>],
+        owner: &mut T,
+    ) -> Result<Option<String>, SceneError> {
+        let DeValue::Table(fields) = item.get_ref() else {
+            return self.wrong(item, &format!("{kind} must be a table: [[{kind}]]"));
         };
-        let mut source = Source { name: index.to_string(), ..Source::default() };
-        for (name, value) in table {
+        let mut own = None;
+        for (name, value) in fields {
             let field = name.get_ref().as_ref();
             if field == "name" {
-                source.name = self.text_of("name", value)?;
+                own = Some(self.text_of("name", value)?);
             } else {
-                self.put(SOURCE_SETTINGS, &mut source, &format!("source.{field}"), field, value)?;
+                self.put(table, owner, &format!("{kind}.{field}"), field, value)?;
             }
         }
-        Ok(source)
+        Ok(own)
     }
 
     fn put<T>(
@@ -330,7 +352,7 @@ fn unknown_section(key: &str) -> String {
     ];
     let nearest = known.into_iter().min_by_key(|k| settings::distance(k, key)).unwrap_or("");
     if known.contains(&key) {
-        let lists = ["pool", "sink", "source", "change"];
+        let lists = ["pool", "sink", "source", "obstacle", "change"];
         let form = if lists.contains(&key) { format!("[[{key}]]") } else { format!("[{key}]") };
         format!("\"{key}\" must be written as a table, {form}")
     } else {

@@ -1,6 +1,7 @@
 //! A session: a scene made to run, its two halves, and what main may do with it.
 
 use crate::fluid_unit::{FluidReport, FluidUnit, start_sample};
+use crate::obstacles::{ObstacleMover, Obstacles, obstacle_poses};
 use crate::scene::{BackendKind, DeviceKind, Scene};
 use crate::servo::{ServoReport, ServoSettings, ServoUnit};
 use crate::threads::{FluidPace, FluidThread, ServoThread, TickTimes};
@@ -197,6 +198,7 @@ pub struct Session {
     servo: Option<ServoUnit>,
     fluid: Option<FluidUnit>,
     tape: Option<RingConsumer<ServoReport>>,
+    mover: Option<ObstacleMover>,
     owned: Owned,
 }
 
@@ -252,6 +254,8 @@ impl Session {
             pace: None,
         };
         let live = Live::of(scene, threads);
+        let (mover, poses) = obstacle_poses(scene.obstacles.len());
+        let obstacles = Obstacles::new(poses, live.config.world.bodies.get(1..).unwrap_or_default());
         let fluid = FluidUnit {
             backend: open_backend(scene, &live.config)?,
             coupling: scene.run.coupling.build(),
@@ -267,6 +271,7 @@ impl Session {
             pending: None,
             body: BodySample::at(scene.tool.position),
             samples: Vec::with_capacity(2050),
+            obstacles,
             ahead: None,
             last: start_sample(scene.tool.position),
             path_end: scene.tool.position,
@@ -279,6 +284,7 @@ impl Session {
             servo: Some(servo),
             fluid: Some(fluid),
             tape,
+            mover: Some(mover),
             owned: Owned::default(),
         };
         session.start(options)?;
@@ -314,6 +320,11 @@ impl Session {
     /// The fluid's half, once, if the host drives it.
     pub fn take_fluid(&mut self) -> Option<FluidUnit> {
         self.fluid.take()
+    }
+
+    /// The hold on the scene's obstacles, once: for the thread that moves them.
+    pub fn take_obstacles(&mut self) -> Option<ObstacleMover> {
+        self.mover.take()
     }
 
     /// Every tick's report in order, once, if the session was opened with a tape.

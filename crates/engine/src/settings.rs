@@ -1,9 +1,9 @@
 //! Every setting in one table: path, unit, range, whether it may change while a session runs, and what it does.
 //!
 //! Scene files, `--set`, `[[change]]`, the C ABI and the README's table all read it. Settings of a source are
-//! addressed by its name: `source.tap.speed`.
+//! addressed by its name: `source.tap.speed`; those of an obstacle likewise.
 
-use crate::scene::{BackendKind, DeviceKind, Scene, ToolShape};
+use crate::scene::{BackendKind, DeviceKind, Obstacle, Scene, ToolShape};
 use crate::{SceneError, Value};
 use hapflow_fluid::{InteractionMode, Solver, Source};
 use hapflow_haptics::{CouplingKind, FilterSpec};
@@ -524,6 +524,10 @@ pub fn table() -> String {
     for setting in SOURCE_SETTINGS {
         text += &row(setting, &source, &format!("source.NAME.{}", setting.path));
     }
+    let obstacle = Obstacle::default();
+    for setting in OBSTACLE_SETTINGS {
+        text += &row(setting, &obstacle, &format!("obstacle.NAME.{}", setting.path));
+    }
     text
 }
 
@@ -540,6 +544,14 @@ fn set_filter(scene: &mut Scene, value: &Value) -> Result<(), String> {
     };
     Ok(())
 }
+
+/// Settings of an obstacle, addressed as `obstacle.NAME.…`.
+pub const OBSTACLE_SETTINGS: &[Setting<Obstacle>] = &[
+    choice!("shape", FIXED, shape, ["sphere" => ToolShape::Sphere, "disc" => ToolShape::Disc], "Its shape; a disc lies flat, its axis up."),
+    number!("radius", "m", 1e-3..=0.5, LIVE, radius, "Its radius."),
+    number!("thickness", "m", 1e-3..=0.5, LIVE, thickness, "Thickness of a disc."),
+    vector!("position", "m", -10.0..=10.0, LIVE, position, "Where it is, until the host moves it."),
+];
 
 /// Sets `path` before a session starts.
 ///
@@ -558,11 +570,18 @@ pub fn set_live(scene: &mut Scene, path: &str, value: &Value) -> Result<(), Scen
 }
 
 fn put(scene: &mut Scene, path: &str, value: &Value, live: bool) -> Result<(), SceneError> {
+    let fixed = |is_live: bool| live && !is_live;
     if let Some((source, setting)) = find_source(scene, path) {
         return setting.put(&mut scene.sources[source], path, value);
     }
+    if let Some((obstacle, setting)) = find_obstacle(scene, path) {
+        if fixed(setting.live) {
+            return Err(SceneError::NotLive(path.into()));
+        }
+        return setting.put(&mut scene.obstacles[obstacle], path, value);
+    }
     let setting = SETTINGS.iter().find(|s| s.path == path).ok_or_else(|| unknown(scene, path))?;
-    if live && !setting.live {
+    if fixed(setting.live) {
         return Err(SceneError::NotLive(path.into()));
     }
     setting.put(scene, path, value)
@@ -576,6 +595,9 @@ pub fn get(scene: &Scene, path: &str) -> Result<Value, SceneError> {
     if let Some((source, setting)) = find_source(scene, path) {
         return Ok(setting.get(&scene.sources[source]));
     }
+    if let Some((obstacle, setting)) = find_obstacle(scene, path) {
+        return Ok(setting.get(&scene.obstacles[obstacle]));
+    }
     let setting = SETTINGS.iter().find(|s| s.path == path).ok_or_else(|| unknown(scene, path))?;
     Ok(setting.get(scene))
 }
@@ -586,12 +608,22 @@ fn find_source(scene: &Scene, path: &str) -> Option<(usize, &'static Setting<Sou
     Some((source, SOURCE_SETTINGS.iter().find(|s| s.path == field)?))
 }
 
+fn find_obstacle(scene: &Scene, path: &str) -> Option<(usize, &'static Setting<Obstacle>)> {
+    let (name, field) = path.strip_prefix("obstacle.")?.rsplit_once('.')?;
+    let obstacle = scene.obstacles.iter().position(|o| o.name == name)?;
+    Some((obstacle, OBSTACLE_SETTINGS.iter().find(|s| s.path == field)?))
+}
+
 fn unknown(scene: &Scene, path: &str) -> SceneError {
     let sources = scene
         .sources
         .iter()
         .flat_map(|s| SOURCE_SETTINGS.iter().map(move |f| format!("source.{}.{}", s.name, f.path)));
-    let all = SETTINGS.iter().map(|s| s.path.to_string()).chain(sources);
+    let obstacles = scene
+        .obstacles
+        .iter()
+        .flat_map(|o| OBSTACLE_SETTINGS.iter().map(move |f| format!("obstacle.{}.{}", o.name, f.path)));
+    let all = SETTINGS.iter().map(|s| s.path.to_string()).chain(sources).chain(obstacles);
     let nearest = all.min_by_key(|known| distance(known, path));
     let hint = match nearest {
         Some(known) if distance(&known, path) <= 1 + path.len() / 3 => format!("; did you mean {known}?"),

@@ -17,7 +17,7 @@ use std::thread::JoinHandle;
 /// The servo's period, ns.
 const TICK_NS: u64 = 1_000_000;
 /// Priority of the servo thread, SCHED_FIFO.
-const PRIORITY: u8 = 80;
+pub const SERVO_PRIORITY: u8 = 80;
 /// Entries of the tick histogram: 0.1 µs each, then all that is longer.
 const TICK_BINS: usize = 2000;
 
@@ -76,9 +76,10 @@ impl ServoThread {
     ) -> Result<Self, SceneError> {
         let stop = Arc::new(AtomicBool::new(false));
         let theirs = Arc::clone(&stop);
-        let thread =
-            spawn_realtime("hapflow-servo", PRIORITY, move || servo_loop(servo, device, &*clock, &theirs))
-                .map_err(|cause| SceneError::Thread { name: "servo", cause })?;
+        let thread = spawn_realtime("hapflow-servo", SERVO_PRIORITY, move || {
+            servo_loop(servo, device, &*clock, &theirs)
+        })
+        .map_err(|cause| SceneError::Thread { name: "servo", cause })?;
         let status = thread.status().clone();
         Ok(Self { stop, thread: Some(thread), status })
     }

@@ -80,8 +80,18 @@ pub fn simd(level: &str) -> Check {
 
 /// The priority of the servo's thread; `program` is this program's file.
 pub fn priority(priority: u8, grant: &Grant, container: bool, program: Option<&Path>) -> Check {
-    let Grant::Refused(refusal) = grant else {
-        return Check::ok("priority", format!("real-time priority {priority} granted to the servo"));
+    let refusal = match grant {
+        Grant::Granted => {
+            return Check::ok("priority", format!("real-time priority {priority} granted to the servo"));
+        }
+        Grant::NotAsked => {
+            return Check::warning(
+                "priority",
+                "not tried, for want of a thread",
+                "see to the check `timer` first",
+            );
+        }
+        Grant::Refused(refusal) => refusal,
     };
     match refusal {
         Refusal::Priority { limit, .. } => {
@@ -105,14 +115,13 @@ fn allow_priority(priority: u8, limit: u64, container: bool, program: Option<&Pa
     }
     if limit >= u64::from(priority) {
         return on_linux(
-            "the limit would do, so a control group or sandbox forbids it: run hapflow outside of it, or \
-             `sudo sysctl kernel.sched_rt_runtime_us=-1`",
+            "the limit would do, so a control group or sandbox forbids it: run hapflow outside of it",
         );
     }
     let program = program.map_or_else(|| "hapflow".into(), |p| shell_word(&p.display().to_string()));
     on_linux(format!(
-        "add the line `@realtime - rtprio {priority}` to /etc/security/limits.conf, {JOIN}; or, until the next build, \
-         `sudo setcap cap_sys_nice=ep {program}`"
+        "add the line `@realtime - rtprio {priority}` to /etc/security/limits.conf, {JOIN}; or, until this file is \
+         replaced, `sudo setcap cap_sys_nice=ep {program}`"
     ))
 }
 

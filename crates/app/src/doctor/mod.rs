@@ -1,7 +1,7 @@
 //! `hapflow doctor`: checks a machine and says what to do.
 //!
 //! [`probe`] asks the system, [`parse`] reads its files' texts, [`judge`] says what is good enough and what to do
-//! otherwise, [`format`](self::format) writes it down. A check is [missing](check::State::Missing) only if hapflow
+//! otherwise, [`mod@format`] writes it down. A check is [missing](check::State::Missing) only if hapflow
 //! does not run without; all else is a warning.
 
 mod check;
@@ -13,11 +13,10 @@ mod timer;
 
 use crate::cli::DoctorArgs;
 use check::{Check, State};
+use hapflow_engine::SERVO_PRIORITY;
 use std::io::Write;
 use std::path::Path;
 
-/// The real-time priority that a run asks for its servo.
-const PRIORITY: u8 = 80;
 /// Ticks of the timer's loop: half a second.
 const TICKS: u32 = 500;
 /// Where runs write unless told otherwise.
@@ -46,7 +45,7 @@ fn examine() -> Vec<Check> {
     let program = std::env::current_exe().ok();
     let (memory, limit) = probe::memory();
     // The timer's thread asks for the priority, as the servo's does, and runs on without it.
-    let servo = probe::servo(PRIORITY, TICKS);
+    let servo = probe::servo(SERVO_PRIORITY, TICKS);
     let priority = servo.as_ref().map(|(grant, _)| grant.clone()).unwrap_or_default();
     let timed = servo.map(|(grant, late)| (late, grant.is_granted()));
     let (governor, driver) = probe::governor();
@@ -55,7 +54,7 @@ fn examine() -> Vec<Check> {
         judge::versions(&system),
         judge::cores(probe::cores()),
         judge::simd(&probe::simd()),
-        judge::priority(PRIORITY, &priority, system.container, program.as_deref()),
+        judge::priority(SERVO_PRIORITY, &priority, system.container, program.as_deref()),
         judge::memory(&memory, limit.as_deref(), system.container),
         judge::timer(&timed),
         judge::governor(governor.as_deref(), driver.as_deref()),

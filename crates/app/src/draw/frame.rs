@@ -10,7 +10,7 @@ use super::font::Pen;
 use super::glass::Glass;
 use super::image::Image;
 use super::kernels::{REACH, kernels};
-use super::material::LACQUER;
+use super::material::{LACQUER, Material, STEEL};
 use super::mirror::{Mote, add_images};
 use super::photons::{LightMap, Shade};
 use super::scene::{Box3, Nozzle, Scene3d, Tool, ToolShape};
@@ -81,7 +81,7 @@ fn field(scene: &Scene3d, low: Vec3, high: Vec3) -> Field {
     let least = motes.iter().map(|mote| mote.place).reduce(Vec3::min).unwrap_or(low);
     let most = motes.iter().map(|mote| mote.place).reduce(Vec3::max).unwrap_or(low);
     let rim = Vec3::splat(4.0 * spacing);
-    let tool: Vec<Solid> = tool(&scene.tool).into_iter().collect();
+    let tool: Vec<Solid> = solid(&scene.tool, LACQUER).into_iter().collect();
     Field::new(&kernels(&motes, spacing), spacing, (least - rim, most + rim), &walls, &tool)
 }
 
@@ -95,14 +95,15 @@ fn walls(scene: &Scene3d) -> Vec<Box3> {
     walls
 }
 
-/// The tool and the taps.
+/// The tool, the obstacles and the taps.
 fn solids(scene: &Scene3d) -> Vec<Solid> {
     let mut solids: Vec<Solid> = scene.sources.iter().flat_map(Nozzle::solids).collect();
-    solids.extend(tool(&scene.tool));
+    solids.extend(solid(&scene.tool, LACQUER));
+    solids.extend(scene.obstacles.iter().filter_map(|o| solid(o, STEEL)));
     solids
 }
 
-fn tool(tool: &Tool) -> Option<Solid> {
+fn solid(tool: &Tool, material: Material) -> Option<Solid> {
     let centre = Vec3::from(tool.position);
     let reach = tool.reach();
     let form = match tool.shape {
@@ -117,7 +118,7 @@ fn tool(tool: &Tool) -> Option<Solid> {
             }
         }
     };
-    (centre.is_finite() && reach.is_finite() && reach > 0.0).then_some(Solid { form, material: LACQUER })
+    (centre.is_finite() && reach.is_finite() && reach > 0.0).then_some(Solid { form, material })
 }
 
 /// Traces every pixel, and those at edges several times; the result is ready for the screen, 0 to 1.
@@ -215,6 +216,7 @@ mod tests {
             containers,
             ground_y: Some(-0.1),
             sources,
+            obstacles: &[],
             force: Some([0.0, 1.0, 0.0]),
             bounds: ([-0.1; 3], [0.1; 3]),
             caption: "a caption",

@@ -16,6 +16,8 @@ pub struct Scene3d<'a> {
     pub spacing: f32,
     /// The tool that the hand holds.
     pub tool: Tool,
+    /// What else is solid.
+    pub obstacles: &'a [Tool],
     /// Open-topped glass boxes.
     pub containers: &'a [Box3],
     /// Height of the ground, m; none for a picture without ground.
@@ -30,7 +32,7 @@ pub struct Scene3d<'a> {
     pub caption: &'a str,
 }
 
-/// The tool and where it is.
+/// A solid thing, such as the tool, and where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tool {
     /// Its shape.

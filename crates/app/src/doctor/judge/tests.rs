@@ -52,6 +52,7 @@ fn only_scalar_code_is_a_warning() {
 #[test]
 fn priority_granted_or_not_supported() {
     assert_eq!(priority(80, &Grant::Granted, false, None).state, State::Ok);
+    assert_eq!(priority(80, &Grant::NotAsked, false, None).state, State::Warning);
     let check = priority(80, &refused(Refusal::NotSupported), false, None);
     assert_eq!((check.state, check.advice.as_str()), (State::Warning, NOT_KNOWN));
 }

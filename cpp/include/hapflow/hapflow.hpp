@@ -1,0 +1,457 @@
+// hapflow for C++17: the C interface of <hapflow/hapflow.h> with values, destructors and exceptions. Header only.
+//
+//     hapflow::Config config;
+//     config.scene = "tap";
+//     hapflow::Session session(config);
+//     hapflow::ToolState state;
+//     for (each tick at about 1 kHz) {                              the host's loop
+//         session.fluid_advance(state.time_s);                      here, or fluid_step in a thread of its own
+//         hapflow::Tick tick = session.tick(state);                 tick.wrench.force goes to the device
+//     }
+//
+// What a function does, and what it may be given, is said in hapflow.h, which is the contract; here is said how C++
+// sees it. Each function has the thread class of the C function below it:
+//
+//     [main]   may block and allocate. One thread at a time a session; it need not always be the same.
+//     [servo]  wait-free: no lock, no allocation, no system call, no log. One thread at a time.
+//     [fluid]  computes, for milliseconds. One thread at a time a session.
+//     [any]    lock-free, by any number of threads at once.
+//
+// Functions of different classes may run on one Session at the same time. Only to move it, to assign to it and to
+// let it end, a thread must have it for itself. Whatever fails throws Error; a function that is noexcept gives the
+// result instead. Remarks (positive results) are no errors.
+#ifndef HAPFLOW_HAPFLOW_HPP
+#define HAPFLOW_HAPFLOW_HPP
+
+#include <hapflow/hapflow.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace hapflow {
+
+/// Three numbers: x, y, z.
+using Vec3 = std::array<double, 3>;
+/// The newest tick, and the newest fluid frame: see hapflow_report.
+using Report = hapflow_report;
+/// A scene that the library brings along: see hapflow_scene_info. Its texts last as long as the process.
+using SceneInfo = hapflow_scene_info;
+/// A haptic device that the library knows: see hapflow_device_info. Its texts last as long as the process.
+using DeviceInfo = hapflow_device_info;
+
+/// A function of the library failed. what() tells all of it: the function, its argument, the result, the detail.
+class Error : public std::runtime_error {
+public:
+    /// `detail` may be empty.
+    Error(hapflow_result code, const std::string& where, const std::string& detail)
+        : std::runtime_error(where + ": " + (detail.empty() ? hapflow_result_text(code) : detail)),
+          code_(code),
+          detail_(detail.empty() ? std::string::npos : where.size() + 2) {}
+
+    /// Which failure: HAPFLOW_ERROR_...
+    [[nodiscard]] hapflow_result code() const noexcept { return code_; }
+
+    /// What exactly was wrong, as hapflow_last_error told it: field, value, allowed range, line in a scene. Where the
+    /// library tells no more than the result, its sentence on that. Lasts as long as this error.
+    [[nodiscard]] const char* detail() const noexcept {
+        return detail_ == std::string::npos ? hapflow_result_text(code_) : what() + detail_;
+    }
+
+private:
+    hapflow_result code_;
+    std::size_t detail_; // where in what()
+};
+
+namespace detail {
+
+/// The text that `read(buffer, capacity, &length)` gives, which must never fail: by two calls, or more if it grows
+/// meanwhile.
+template <class Read>
+std::string whole_text(Read read) {
+    std::string text;
+    std::size_t length = 0;
+    for (read(nullptr, 0, &length); length > text.size();) {
+        text.resize(length);
+        // The last byte is the string's own NUL, which the library writes as a NUL again.
+        read(text.data(), text.size() + 1, &length);
+    }
+    text.resize(length);
+    return text;
+}
+
+/// The message of the last [main] function that failed on this thread.
+inline std::string last_error() {
+    return whole_text([](char* text, std::size_t capacity, std::size_t* length) {
+        static_cast<void>(hapflow_last_error(text, capacity, length));
+    });
+}
+
+/// For functions that leave no message.
+inline void check(hapflow_result result, const char* where) {
+    if (result < 0) {
+        throw Error(result, where, {});
+    }
+}
+
+/// For [main] functions, which leave one.
+inline void check_main(hapflow_result result, const std::string& where) {
+    if (result < 0) {
+        throw Error(result, where, last_error());
+    }
+}
+
+/// A text for C, which ends at its first NUL: one inside would cut it without a word.
+inline const char* c_text(const std::string& text, const char* where) {
+    if (text.find('\0') != std::string::npos) {
+        throw Error(HAPFLOW_ERROR_TEXT, where, "a text with a NUL inside");
+    }
+    return text.c_str();
+}
+
+inline const char* c_text_or_null(const std::string& text, const char* where) {
+    return text.empty() ? nullptr : c_text(text, where);
+}
+
+/// What `get(index, &info)` gives for every index below `count`.
+template <class Info, class Init, class Get>
+std::vector<Info> all(std::uint32_t count, Init init, Get get) {
+    std::vector<Info> infos(count);
+    for (std::uint32_t index = 0; index < count; index++) {
+        check(init(&infos[index], static_cast<std::uint32_t>(sizeof(Info))), "list");
+        check(get(index, &infos[index]), "list");
+    }
+    return infos;
+}
+
+template <class T>
+constexpr std::uint32_t size_of() noexcept {
+    return static_cast<std::uint32_t>(sizeof(T));
+}
+
+} // namespace detail
+
+/// Agrees with the library on the version of the C interface, once a process; every Session does it first. [main,
+/// several at once] Gives the version.
+inline std::uint32_t negotiate() {
+    // If it throws, the next call tries again.
+    static const std::uint32_t chosen = [] {
+        std::uint32_t version = 0;
+        detail::check(hapflow_negotiate(HAPFLOW_ABI_VERSION, HAPFLOW_ABI_VERSION, &version), "negotiate");
+        return version;
+    }();
+    return chosen;
+}
+
+/// The release of the library: major * 1000000 + minor * 1000 + patch. [any]
+[[nodiscard]] inline std::uint32_t version() noexcept {
+    return hapflow_version();
+}
+
+/// What the library is and has, one `key = value` a line: see hapflow_build_info. [main, several at once]
+[[nodiscard]] inline std::string build_info() {
+    return detail::whole_text([](char* text, std::size_t capacity, std::size_t* length) {
+        detail::check(hapflow_build_info(text, capacity, length), "build_info");
+    });
+}
+
+/// The scenes that the library brings along. [main, several at once]
+[[nodiscard]] inline std::vector<SceneInfo> scenes() {
+    return detail::all<SceneInfo>(hapflow_scene_count(), hapflow_scene_info_init, hapflow_scene_get);
+}
+
+/// The haptic devices that the library knows, plugged in or not. [main, several at once]
+[[nodiscard]] inline std::vector<DeviceInfo> devices() {
+    return detail::all<DeviceInfo>(hapflow_device_count(), hapflow_device_info_init, hapflow_device_get);
+}
+
+/// How a session is made. Exactly one of `scene` and `toml` is given.
+struct Config {
+    std::string scene;         ///< Name of a shipped scene, as "tap", or path of a scene file.
+    std::string toml;          ///< Text of a scene file.
+    std::string settings;      ///< Lines `path = value` that are set on top.
+    std::uint32_t threads = 0; ///< Worker threads of the fluid; 0: all cores but one. Results do not depend on it.
+};
+
+/// Where the hand is, and when: see hapflow_tool_state. By default at rest in the origin, at time 0.
+struct ToolState {
+    double time_s = 0;                                 ///< Since the session's start, never less than before, s.
+    double dt_s = 0.001;                               ///< Since the last tick, s.
+    Vec3 position{};                                   ///< m.
+    std::array<double, 4> orientation{{0, 0, 0, 1}};   ///< Unit quaternion x, y, z, w, tool to device frame.
+    Vec3 velocity{};                                   ///< m/s.
+    Vec3 angular_velocity{};                           ///< rad/s, in the device frame.
+    std::uint32_t buttons = 0;                         ///< Bit n: button n is down.
+    std::uint32_t tool = 0;                            ///< 0: the only one yet.
+};
+
+/// What the hand is to feel. Finite, and within the limits of the scene's safety gate.
+struct Wrench {
+    Vec3 force{};  ///< N, in the frame of the tool state.
+    Vec3 torque{}; ///< N m, about the tool's position.
+};
+
+/// What a servo tick gave. The wrench is zero if it failed.
+struct [[nodiscard]] Tick {
+    Wrench wrench;             ///< What goes to the device.
+    hapflow_result result = 0; ///< Negative: it failed. Positive: it is done, and there is a remark.
+
+    /// It is done, perhaps with a remark.
+    [[nodiscard]] bool ok() const noexcept { return result >= 0; }
+    /// A sentence on the result.
+    [[nodiscard]] const char* text() const noexcept { return hapflow_result_text(result); }
+};
+
+/// A setting of a session, with all that a panel needs to show it: see hapflow_setting_info.
+struct Setting {
+    std::uint32_t kind = 0;           ///< HAPFLOW_SETTING_...
+    bool live = false;                ///< It may change while the session runs.
+    double min = 0;                   ///< Smallest; 0 where kind says nothing of it.
+    double max = 0;                   ///< Largest.
+    std::string path;                 ///< As "fluid.viscosity".
+    std::string group;                ///< The path without its last word.
+    std::string unit;                 ///< As "m/s", in UTF-8; empty for none.
+    std::string about;                ///< A sentence on what it does.
+    std::vector<std::string> choices; ///< Every word of a choice.
+    std::string usual;                ///< Its value where a scene says nothing.
+};
+
+/// A scene, its fluid and its tool; the host drives both. Owns the session of the C interface, and destroys it.
+class Session {
+public:
+    /// Makes a session: milliseconds to seconds, as the scene has particles. [main, several at once]
+    explicit Session(const Config& config) {
+        negotiate();
+        hapflow_session_config c{};
+        detail::check(hapflow_session_config_init(&c, detail::size_of<hapflow_session_config>()), "config");
+        c.scene = detail::c_text_or_null(config.scene, "scene");
+        c.toml = config.toml.empty() ? nullptr : config.toml.data();
+        c.toml_length = config.toml.size();
+        c.settings = detail::c_text_or_null(config.settings, "settings");
+        c.threads = config.threads;
+        detail::check(hapflow_tool_state_init(&blank_, detail::size_of<hapflow_tool_state>()), "tool state");
+        detail::check_main(hapflow_session_create(&c, &session_), "session");
+    }
+
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    /// Leaves a null session in `other`: all that it does fails with HAPFLOW_ERROR_HANDLE. [any] But this thread must
+    /// have both for itself, as for every move.
+    Session(Session&& other) noexcept
+        : session_(std::exchange(other.session_, hapflow_session{})), blank_(other.blank_) {}
+
+    /// Destroys what it had, and takes over the other's. [main] This thread must have both for itself.
+    Session& operator=(Session&& other) noexcept {
+        if (this != &other) {
+            end();
+            session_ = std::exchange(other.session_, hapflow_session{});
+            blank_ = other.blank_;
+        }
+        return *this;
+    }
+
+    /// Ends the session, if destroy() has not; waits for calls under way. [main]
+    ~Session() { end(); }
+
+    /// Ends the session now. [main] Waits for calls of other threads that are under way; later ones fail with
+    /// HAPFLOW_ERROR_HANDLE.
+    void destroy() { detail::check_main(hapflow_session_destroy(session_), "destroy"); }
+
+    /// For functions of hapflow.h that are not here. Never destroy it. [any]
+    [[nodiscard]] hapflow_session handle() const noexcept { return session_; }
+
+    // -------------------------------------------------------------------------------------------- servo
+
+    /// One servo tick: the hand is at `state`, and feels the wrench. [servo] On failure the wrench is zero.
+    Tick tick(const ToolState& state) noexcept {
+        hapflow_tool_state c = blank_;
+        c.tool = state.tool;
+        c.buttons = state.buttons;
+        c.time_s = state.time_s;
+        c.dt_s = state.dt_s;
+        copy(state.position, c.position);
+        copy(state.orientation, c.orientation);
+        copy(state.velocity, c.velocity);
+        copy(state.angular_velocity, c.angular_velocity);
+        hapflow_wrench wrench{};
+        Tick tick;
+        tick.result = hapflow_servo_tick(session_, &c, &wrench);
+        for (std::size_t i = 0; i < 3; i++) {
+            tick.wrench.force[i] = wrench.force[i];
+            tick.wrench.torque[i] = wrench.torque[i];
+        }
+        return tick;
+    }
+
+    /// No force from the next tick on, until the faults are cleared. [any]
+    hapflow_result emergency_stop() noexcept { return hapflow_session_emergency_stop(session_); }
+
+    /// Takes back every fault; the force then comes up slowly, as at a start. [any] Only a person who has seen that
+    /// the device is safe should lead to this call.
+    void clear_faults() { detail::check(hapflow_session_clear_faults(session_), "clear_faults"); }
+
+    // -------------------------------------------------------------------------------------------- fluid
+
+    /// Steps every fluid frame that has ended by `time_s` on the servo's clock. [fluid]
+    void fluid_advance(double time_s) {
+        detail::check(hapflow_fluid_advance(session_, time_s), "fluid_advance");
+    }
+
+    /// Steps one frame, whose tool path ends at `end_s` on the servo's clock. [fluid] For a thread in real time.
+    void fluid_step(double end_s) { detail::check(hapflow_fluid_step(session_, end_s), "fluid_step"); }
+
+    /// The particles at the end of the newest frame: x, y, z of each, in m. [fluid] Their order is no identity.
+    /// `positions` becomes as long as needed, and keeps its room for the next time.
+    void particles(std::vector<float>& positions) {
+        std::size_t count = 0;
+        detail::check(hapflow_fluid_particles(session_, nullptr, 0, &count), "particles");
+        positions.resize(count * 3);
+        // The [fluid] class is this thread's own: no frame comes between the two calls.
+        detail::check(hapflow_fluid_particles(session_, positions.data(), count, &count), "particles");
+        positions.resize(count * 3 < positions.size() ? count * 3 : positions.size());
+    }
+
+    /// The same, in a vector of its own. [fluid]
+    [[nodiscard]] std::vector<float> particles() {
+        std::vector<float> positions;
+        particles(positions);
+        return positions;
+    }
+
+    // -------------------------------------------------------------------------------------------- settings
+
+    /// Sets a live setting to a number, or a switch to true or false. [main]
+    template <class T, std::enable_if_t<std::is_arithmetic_v<T>, int> = 0>
+    void set(const std::string& path, T value) {
+        if constexpr (std::is_same_v<T, bool>) {
+            set(path, std::string(value ? "true" : "false"));
+        } else {
+            const char* c_path = detail::c_text(path, "set");
+            detail::check_main(hapflow_session_set(session_, c_path, static_cast<double>(value)), "set");
+        }
+    }
+
+    /// Sets any live setting, with its value as a command line has it: "true", "1.5", "[0, -9.81, 0]", "wcsph".
+    /// [main]
+    void set(const std::string& path, const std::string& value) {
+        const char* c_path = detail::c_text(path, "set");
+        detail::check_main(hapflow_session_set_text(session_, c_path, detail::c_text(value, "set")), "set");
+    }
+
+    /// The same for a literal, which would else be taken for a bool. [main]
+    void set(const std::string& path, const char* value) { set(path, std::string(value)); }
+
+    /// Sets a live setting to three numbers. [main]
+    void set(const std::string& path, const Vec3& value) {
+        const char* c_path = detail::c_text(path, "set");
+        detail::check_main(hapflow_session_set_vector(session_, c_path, value.data()), "set");
+    }
+
+    /// The same, written out: set("fluid.gravity", {0, -9.81, 0}). [main]
+    template <std::size_t N>
+    void set(const std::string& path, const double (&value)[N]) {
+        static_assert(N == 3, "x, y and z");
+        set(path, Vec3{{value[0], value[1], value[2]}});
+    }
+
+    /// Reads a setting: get<double>, get<bool>, get<Vec3>, or get<std::string>, which reads all of them. [main] A
+    /// setting of another type throws an Error with HAPFLOW_ERROR_VALUE.
+    template <class T = double>
+    [[nodiscard]] T get(const std::string& path) const {
+        if constexpr (std::is_same_v<T, double>) {
+            double value = 0;
+            const char* c_path = detail::c_text(path, "get");
+            detail::check_main(hapflow_session_get(session_, c_path, &value), "get");
+            return value;
+        } else if constexpr (std::is_same_v<T, bool>) {
+            const std::string text = get_text(path);
+            if (text != "true" && text != "false") {
+                throw Error(HAPFLOW_ERROR_VALUE, "get", path + " = " + text + ": not true or false");
+            }
+            return text == "true";
+        } else if constexpr (std::is_same_v<T, Vec3>) {
+            return vector(path, get_text(path));
+        } else {
+            static_assert(std::is_same_v<T, std::string>, "get<double>, <bool>, <Vec3> or <std::string>");
+            return get_text(path);
+        }
+    }
+
+    /// Every setting that the session has: those of the scene, then those of each source. [main]
+    [[nodiscard]] std::vector<Setting> settings() const {
+        std::uint32_t count = 0;
+        detail::check_main(hapflow_session_setting_count(session_, &count), "settings");
+        std::vector<Setting> settings(count);
+        for (std::uint32_t index = 0; index < count; index++) {
+            hapflow_setting_info c{};
+            detail::check(hapflow_setting_info_init(&c, detail::size_of<hapflow_setting_info>()), "settings");
+            detail::check_main(hapflow_session_setting_info(session_, index, &c), "settings");
+            std::vector<std::string> choices;
+            std::istringstream lines(c.choices);
+            for (std::string word; std::getline(lines, word);) {
+                choices.push_back(word);
+            }
+            settings[index] = {c.kind,  c.live != 0, c.min,   c.max,   c.path,
+                               c.group, c.unit,      c.about, choices, c.usual};
+        }
+        return settings;
+    }
+
+    /// Reads the newest tick and frame. [main] Never waits for either.
+    [[nodiscard]] Report report() const {
+        Report report{};
+        detail::check(hapflow_report_init(&report, detail::size_of<Report>()), "report");
+        detail::check_main(hapflow_session_report(session_, &report), "report");
+        return report;
+    }
+
+private:
+    // Fails only if there is no session any more, and then there is nothing to do.
+    void end() noexcept {
+        if (session_.id != 0) {
+            static_cast<void>(hapflow_session_destroy(session_));
+        }
+    }
+
+    template <std::size_t N>
+    static void copy(const std::array<double, N>& from, double (&to)[N]) noexcept {
+        for (std::size_t i = 0; i < N; i++) {
+            to[i] = from[i];
+        }
+    }
+
+    [[nodiscard]] std::string get_text(const std::string& path) const {
+        const char* c_path = detail::c_text(path, "get");
+        return detail::whole_text([&](char* text, std::size_t capacity, std::size_t* length) {
+            detail::check_main(hapflow_session_get_text(session_, c_path, text, capacity, length), "get");
+        });
+    }
+
+    /// "[0, -9.81, 0]", whatever the program's locale.
+    static Vec3 vector(const std::string& path, const std::string& text) {
+        std::istringstream in(text);
+        in.imbue(std::locale::classic());
+        Vec3 v{};
+        char open = 0, first = 0, second = 0, close = 0;
+        in >> open >> v[0] >> first >> v[1] >> second >> v[2] >> close;
+        if (!in || open != '[' || first != ',' || second != ',' || close != ']') {
+            throw Error(HAPFLOW_ERROR_VALUE, "get", path + " = " + text + ": not three numbers");
+        }
+        return v;
+    }
+
+    hapflow_session session_{};
+    hapflow_tool_state blank_{}; // what the library takes for a tool at rest: fields that are not here keep theirs
+};
+
+} // namespace hapflow
+
+#endif

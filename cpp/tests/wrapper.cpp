@@ -1,0 +1,418 @@
+// Every function of hapflow.hpp, as a host uses it and as it should not. Says what failed, and exits with 1.
+#include <hapflow/hapflow.hpp>
+
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <thread>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+static int failed = 0;
+#define CHECK(...) \
+    do { \
+        if (!(__VA_ARGS__)) { \
+            std::printf("%s:%d: %s\n", __FILE__, __LINE__, #__VA_ARGS__); \
+            failed++; \
+        } \
+    } while (false)
+
+using hapflow::Config;
+using hapflow::Error;
+using hapflow::Session;
+using hapflow::Tick;
+using hapflow::ToolState;
+using hapflow::Vec3;
+using hapflow::Wrench;
+
+// What must not compile, or must not throw.
+static_assert(!std::is_copy_constructible_v<Session> && !std::is_copy_assignable_v<Session>);
+static_assert(std::is_nothrow_move_constructible_v<Session> && std::is_nothrow_move_assignable_v<Session>);
+static_assert(std::is_nothrow_destructible_v<Session>);
+static_assert(std::is_nothrow_copy_constructible_v<Error> && std::is_base_of_v<std::runtime_error, Error>);
+static_assert(noexcept(std::declval<Session&>().tick(ToolState{})));
+static_assert(noexcept(std::declval<Session&>().emergency_stop()));
+static_assert(std::is_trivially_copyable_v<Tick> && std::is_trivially_copyable_v<ToolState>);
+
+// From another file of this program: the header is there twice.
+std::uint32_t negotiated_elsewhere();
+
+// A jet in closed form on a ball at rest: a force at no cost.
+static const char* const jet = R"(
+[run]
+duration = 0.2
+fluid_hz = 100
+backend = "analytic-jet"
+device = "null"
+[bounds]
+min = [-0.1, -0.12, -0.1]
+max = [0.1, 0.12, 0.1]
+[[source]]
+name = "tap"
+position = [0.0, 0.05, 0.0]
+diameter = 0.02
+speed = 1.5
+[gate]
+ramp_in = 0.02
+)";
+
+static Session open_jet(const char* settings = "") {
+    Config config;
+    config.toml = jet;
+    config.settings = settings;
+    return Session(config);
+}
+
+static bool zero(const Wrench& w) {
+    for (std::size_t i = 0; i < 3; i++) {
+        if (w.force[i] != 0 || w.torque[i] != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Ticks at rest at `from` ms to `to` ms, with the fluid; the last one.
+static Tick run(Session& session, int from, int to) {
+    ToolState state;
+    Tick tick;
+    for (int n = from; n < to; n++) {
+        state.time_s = n * 1e-3;
+        session.fluid_advance(state.time_s);
+        tick = session.tick(state);
+        CHECK(tick.ok());
+    }
+    return tick;
+}
+
+// That `body` throws an Error of this code, whose text has all these parts.
+template <class Body>
+static void throws(int line, hapflow_result code, std::vector<std::string> parts, Body body) {
+    try {
+        body();
+        std::printf("line %d: nothing was thrown\n", line);
+        failed++;
+    } catch (const Error& error) {
+        bool good = error.code() == code && std::strstr(error.what(), error.detail()) != nullptr;
+        for (const std::string& part : parts) {
+            good = good && std::string(error.what()).find(part) != std::string::npos;
+        }
+        if (!good) {
+            std::printf("line %d: %d, \"%s\", \"%s\"\n", line, error.code(), error.what(), error.detail());
+            failed++;
+        }
+    }
+}
+#define THROWS(code, parts, ...) throws(__LINE__, code, std::vector<std::string> parts, [&] { __VA_ARGS__; })
+
+static void versions() {
+    CHECK(hapflow::negotiate() == HAPFLOW_ABI_VERSION);
+    CHECK(negotiated_elsewhere() == HAPFLOW_ABI_VERSION);
+    CHECK(hapflow::version() == hapflow_version() && hapflow::version() > 0);
+}
+
+static void what_the_library_has() {
+    CHECK(hapflow::build_info().find("\nscenes = tap ") != std::string::npos);
+    bool tap = false;
+    for (const hapflow::SceneInfo& scene : hapflow::scenes()) {
+        tap = tap || std::string(scene.name) == "tap";
+        CHECK(std::strstr(scene.toml, "[run]") != nullptr && std::strlen(scene.about) > 0);
+    }
+    CHECK(tap);
+    bool hand = false;
+    for (const hapflow::DeviceInfo& device : hapflow::devices()) {
+        hand = hand || (std::string(device.name) == "hand" && device.max_force > 0);
+    }
+    CHECK(hand);
+
+    std::vector<hapflow::Setting> settings;
+    {
+        const Session session = open_jet();
+        settings = session.settings();
+    } // and they outlive it
+    std::size_t known = 0;
+    for (const hapflow::Setting& s : settings) {
+        if (s.path == "fluid.viscosity") {
+            known += s.kind == HAPFLOW_SETTING_NUMBER && s.live && s.min == 0 && s.max == 10000 && s.group == "fluid";
+            known += s.usual == "0.001" && s.unit == "Pa\u00b7s" && !s.about.empty() && s.choices.empty();
+        } else if (s.path == "fluid.mode") {
+            known += s.choices == std::vector<std::string>{"full", "none", "mixed"} && s.live;
+        } else if (s.path == "run.fluid_hz") {
+            known += !s.live && s.kind == HAPFLOW_SETTING_NUMBER;
+        } else if (s.path == "source.tap.on") {
+            known += s.kind == HAPFLOW_SETTING_SWITCH;
+        }
+    }
+    CHECK(known == 5);
+}
+
+static void errors() {
+    const Error plain(HAPFLOW_ERROR_BUSY, "here", "");
+    CHECK(plain.code() == HAPFLOW_ERROR_BUSY);
+    CHECK(std::string(plain.detail()) == hapflow_result_text(HAPFLOW_ERROR_BUSY));
+    CHECK(std::string(plain.what()) == std::string("here: ") + plain.detail());
+    const Error copy(Error(HAPFLOW_ERROR_VALUE, "there", "x = 1: no"));
+    CHECK(std::string(copy.what()) == "there: x = 1: no" && std::string(copy.detail()) == "x = 1: no");
+}
+
+static void creation_fails_with_the_reason() {
+    Config config;
+    THROWS(HAPFLOW_ERROR_SCENE, {"session: exactly one of scene and toml"}, Session{config});
+    config.scene = "no-such-scene";
+    THROWS(HAPFLOW_ERROR_NOT_FOUND, {"no-such-scene"}, Session{config});
+    config.scene = std::string("tap\0", 4);
+    THROWS(HAPFLOW_ERROR_TEXT, {"scene: a text with a NUL inside"}, Session{config});
+    config.scene = "tap";
+    config.settings = "fluid.viscosity = -1";
+    THROWS(HAPFLOW_ERROR_VALUE, ({"settings:1: fluid.viscosity = -1", "from 0 to 10000"}), Session{config});
+    config.settings.clear();
+    config.threads = 100000;
+    THROWS(HAPFLOW_ERROR_VALUE, {"threads = 100000"}, Session{config});
+    config.scene.clear();
+    config.threads = 0;
+    config.toml = "[run]\nduration = soon\n";
+    THROWS(HAPFLOW_ERROR_SCENE, {"2"}, Session{config});
+    config.toml = "\xff";
+    THROWS(HAPFLOW_ERROR_TEXT, {}, Session{config});
+}
+
+static void a_tick_gives_force() {
+    Session session = open_jet();
+    const Tick tick = run(session, 0, 200);
+    CHECK(tick.result == HAPFLOW_OK && std::string(tick.text()) == hapflow_result_text(HAPFLOW_OK));
+    CHECK(tick.wrench.force[1] < -0.05 && std::abs(tick.wrench.force[0]) < 0.01);
+
+    const hapflow::Report report = session.report();
+    CHECK(report.tick == 200 && report.faults == 0 && report.force[1] == tick.wrench.force[1]);
+    CHECK(report.fluid_frame == 19 && report.time_s == 0.199);
+}
+
+static void a_tick_carries_every_field() {
+    Session session = open_jet();
+    ToolState state;
+    state.time_s = 0.25;
+    state.position = {0.01, 0.02, 0.03};
+    CHECK(session.tick(state).ok());
+    const hapflow::Report report = session.report();
+    CHECK(report.time_s == 0.25);
+    CHECK(report.position[0] == 0.01 && report.position[1] == 0.02 && report.position[2] == 0.03);
+
+    state.dt_s = 0;
+    CHECK(session.tick(state).result == HAPFLOW_REMARK_NO_TIME);
+    state.dt_s = 0.02;
+    CHECK(session.tick(state).result == HAPFLOW_REMARK_LATE);
+    // One wrong field each: it has to arrive to be refused.
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto refused = [&](hapflow_result code, auto change) {
+        session.clear_faults();
+        ToolState wrong;
+        wrong.time_s = 0.25;
+        change(wrong);
+        const Tick tick = session.tick(wrong);
+        CHECK(tick.result == code && !tick.ok() && zero(tick.wrench));
+        CHECK((session.report().faults & HAPFLOW_FAULT_INPUT) != 0);
+    };
+    refused(HAPFLOW_ERROR_TIME, [&](ToolState& s) { s.time_s = 0.2; });
+    refused(HAPFLOW_ERROR_UNSUPPORTED, [&](ToolState& s) { s.tool = 1; });
+    refused(HAPFLOW_ERROR_ORIENTATION, [&](ToolState& s) { s.orientation = {0, 0, 0, 2}; });
+    refused(HAPFLOW_ERROR_VALUE, [&](ToolState& s) { s.position[2] = 2000; });
+    refused(HAPFLOW_ERROR_NOT_FINITE, [&](ToolState& s) { s.velocity[1] = nan; });
+    refused(HAPFLOW_ERROR_NOT_FINITE, [&](ToolState& s) { s.angular_velocity[0] = nan; });
+    session.clear_faults();
+    state.dt_s = 0.001;
+    state.buttons = 5;
+    CHECK(session.tick(state).result == HAPFLOW_OK);
+}
+
+static void a_stop_holds_until_it_is_cleared() {
+    Session session = open_jet();
+    CHECK(!zero(run(session, 0, 100).wrench));
+    CHECK(session.emergency_stop() == HAPFLOW_OK);
+    const Tick held = run(session, 100, 200);
+    CHECK(held.result == HAPFLOW_REMARK_FORCE_HELD && zero(held.wrench));
+    CHECK((session.report().faults & HAPFLOW_FAULT_EMERGENCY_STOP) != 0);
+    session.clear_faults();
+    CHECK(!zero(run(session, 200, 300).wrench));
+}
+
+static void settings() {
+    Session session = open_jet("fluid.viscosity = 0.5");
+    CHECK(session.get("fluid.viscosity") == 0.5);
+    session.set("fluid.viscosity", 0.25);
+    CHECK(session.get<double>("fluid.viscosity") == 0.25);
+    session.set("tool.force_scale", 2); // an int is a number
+    CHECK(session.get("tool.force_scale") == 2);
+
+    session.set("source.tap.on", false);
+    CHECK(!session.get<bool>("source.tap.on") && session.get<std::string>("source.tap.on") == "false");
+    session.set("source.tap.on", "true"); // and a literal is a text
+    CHECK(session.get<bool>("source.tap.on") && session.get("source.tap.on") == 1);
+
+    const Vec3 gravity{{0.125, -1e-7, 30}};
+    session.set("fluid.gravity", gravity);
+    CHECK(session.get<Vec3>("fluid.gravity") == gravity);
+    session.set("fluid.gravity", {0, -9.81, 0});
+    CHECK(session.get<Vec3>("fluid.gravity") == Vec3{{0, -9.81, 0}});
+    session.set("fluid.gravity", std::string("[0, -3, 0]"));
+    CHECK(session.get<std::string>("fluid.gravity") == "[0, -3, 0]");
+    session.set("fluid.mode", "none");
+    CHECK(session.get<std::string>("fluid.mode") == "none");
+
+    THROWS(HAPFLOW_ERROR_VALUE, {"set: fluid.viscosity = -1: must be a number from 0 to 10000 Pa"},
+           session.set("fluid.viscosity", -1.0));
+    CHECK(session.get("fluid.viscosity") == 0.25);
+    THROWS(HAPFLOW_ERROR_SETTING, ({"set: ", "fluid.viscosity"}), session.set("fluid.viscosty", 1.0));
+    THROWS(HAPFLOW_ERROR_FIXED, {"run.fluid_hz"}, session.set("run.fluid_hz", 60));
+    THROWS(HAPFLOW_ERROR_NOT_FINITE, {"fluid.gravity"}, session.set("fluid.gravity", {0, HUGE_VAL, 0}));
+    THROWS(HAPFLOW_ERROR_VALUE, {"tool.radius"}, session.set("tool.radius", true));
+    THROWS(HAPFLOW_ERROR_TEXT, {"NUL"}, session.set(std::string("a\0b", 3), 1.0));
+    THROWS(HAPFLOW_ERROR_TEXT, {"NUL"}, session.set("fluid.mode", std::string("no\0ne", 5)));
+    THROWS(HAPFLOW_ERROR_SETTING, {"get: "}, static_cast<void>(session.get("no.such")));
+    THROWS(HAPFLOW_ERROR_VALUE, {"fluid.mode"}, static_cast<void>(session.get("fluid.mode")));
+    THROWS(HAPFLOW_ERROR_VALUE, {"tool.radius"}, static_cast<void>(session.get<bool>("tool.radius")));
+    THROWS(HAPFLOW_ERROR_VALUE, {"fluid.viscosity = 0.25: not three numbers"},
+           static_cast<void>(session.get<Vec3>("fluid.viscosity")));
+}
+
+static void fluid_and_particles() {
+    Config config;
+    config.scene = "tap";
+    config.settings = "fluid.spacing = 0.01\nrun.fluid_hz = 60";
+    config.threads = 1;
+    Session session(config);
+    CHECK(session.particles().empty());
+    session.fluid_advance(0.2);
+    CHECK(session.report().fluid_frame == 12);
+    session.fluid_step(0.25);
+    CHECK(session.report().fluid_frame == 13);
+
+    std::vector<float> positions(7, 1.0F);
+    session.particles(positions);
+    CHECK(positions.size() == session.report().particles * 3 && positions.size() > 30);
+    CHECK(positions == session.particles());
+    for (const float coordinate : positions) {
+        CHECK(std::abs(coordinate) < 1);
+    }
+
+    THROWS(HAPFLOW_ERROR_TIME, {"fluid_step: "}, session.fluid_step(0.25));
+    THROWS(HAPFLOW_ERROR_TIME, {"fluid_advance: "}, session.fluid_advance(100));
+    THROWS(HAPFLOW_ERROR_NOT_FINITE, {"fluid_advance: "}, session.fluid_advance(HUGE_VAL));
+    // The detail is of this error, not of a [main] function's before it.
+    THROWS(HAPFLOW_ERROR_SETTING, {"no.such"}, session.set("no.such", 1));
+    THROWS(HAPFLOW_ERROR_TIME, {hapflow_result_text(HAPFLOW_ERROR_TIME)}, session.fluid_step(0.1));
+}
+
+// Everything of `session` is refused, and nothing of it pushes.
+static void gone(Session& session) {
+    const Tick tick = session.tick(ToolState{});
+    CHECK(tick.result == HAPFLOW_ERROR_HANDLE && !tick.ok() && zero(tick.wrench));
+    CHECK(session.emergency_stop() == HAPFLOW_ERROR_HANDLE);
+    THROWS(HAPFLOW_ERROR_HANDLE, {"clear_faults"}, session.clear_faults());
+    THROWS(HAPFLOW_ERROR_HANDLE, {"fluid_advance"}, session.fluid_advance(0));
+    THROWS(HAPFLOW_ERROR_HANDLE, {"fluid_step"}, session.fluid_step(1));
+    THROWS(HAPFLOW_ERROR_HANDLE, {"particles"}, static_cast<void>(session.particles()));
+    THROWS(HAPFLOW_ERROR_HANDLE, {"set"}, session.set("fluid.viscosity", 1));
+    THROWS(HAPFLOW_ERROR_HANDLE, {"get"}, static_cast<void>(session.get<bool>("fluid.two_way")));
+    THROWS(HAPFLOW_ERROR_HANDLE, {"settings"}, static_cast<void>(session.settings()));
+    THROWS(HAPFLOW_ERROR_HANDLE, {"report"}, static_cast<void>(session.report()));
+    THROWS(HAPFLOW_ERROR_HANDLE, {"destroy"}, session.destroy());
+}
+
+static bool alive(hapflow_session handle) {
+    hapflow_report report{};
+    CHECK(hapflow_report_init(&report, sizeof report) == HAPFLOW_OK);
+    return hapflow_session_report(handle, &report) == HAPFLOW_OK;
+}
+
+static void moves_and_lives() {
+    hapflow_session handle{};
+    {
+        Session first = open_jet();
+        handle = first.handle();
+        CHECK(alive(handle));
+        Session second(std::move(first));
+        CHECK(second.handle().id == handle.id && first.handle().id == 0); // on purpose: a session that was moved from
+        gone(first);
+        CHECK(run(second, 0, 100).wrench.force[1] < 0);
+
+        Session third = open_jet();
+        const hapflow_session replaced = third.handle();
+        third = std::move(second);
+        CHECK(!alive(replaced) && alive(handle) && third.handle().id == handle.id);
+        Session& same = third;
+        third = std::move(same);
+        CHECK(alive(handle));
+        first = std::move(third); // one that was moved from may get a session again
+        CHECK(run(first, 100, 200).wrench.force[1] < 0);
+
+        std::vector<Session> many;
+        for (int n = 0; n < 5; n++) {
+            many.push_back(open_jet());
+        }
+        CHECK(alive(many[0].handle()));
+    }
+    CHECK(!alive(handle));
+
+    // A destroyed session is refused, and its end is harmless. So is its successor in the same place.
+    Session old = open_jet();
+    old.destroy();
+    gone(old);
+    Session next = open_jet();
+    gone(old);
+    { Session end(std::move(old)); }
+    CHECK(alive(next.handle()));
+
+    // None is left behind, not even by constructors that throw: there is room for all that there may be.
+    next.destroy();
+    std::vector<Session> all;
+    for (unsigned n = 0; n < HAPFLOW_MAX_SESSIONS; n++) {
+        all.push_back(open_jet());
+    }
+    THROWS(HAPFLOW_ERROR_FULL, {}, open_jet());
+}
+
+static void three_threads_on_one_session() {
+    Session session = open_jet();
+    std::atomic<bool> running{true};
+    std::atomic<int> refused{0};
+    std::thread servo([&] {
+        ToolState state;
+        for (int n = 0; n < 20000; n++) {
+            state.time_s = n * 1e-3;
+            refused += !session.tick(state).ok();
+        }
+        running = false;
+    });
+    std::thread fluid([&] {
+        for (int n = 1; running; n++) {
+            session.fluid_step(n * 1e-3);
+        }
+    });
+    while (running) {
+        session.set("fluid.viscosity", session.get("fluid.viscosity") * 0.99);
+        CHECK(session.report().tick <= 20000);
+    }
+    servo.join();
+    fluid.join();
+    CHECK(refused == 0);
+}
+
+int main() {
+    versions();
+    what_the_library_has();
+    errors();
+    creation_fails_with_the_reason();
+    a_tick_gives_force();
+    a_tick_carries_every_field();
+    a_stop_holds_until_it_is_cleared();
+    settings();
+    fluid_and_particles();
+    three_threads_on_one_session();
+    moves_and_lives();
+    std::printf(failed == 0 ? "all passed\n" : "%d failed\n", failed);
+    return failed == 0 ? 0 : 1;
+}

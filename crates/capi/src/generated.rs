@@ -1,0 +1,531 @@
+//! The header in Rust, by tools/bindings.sh: not to be edited.
+#![allow(dead_code, non_camel_case_types, clippy::all)]
+
+pub const HAPFLOW_ABI_VERSION: u32 = 1;
+pub const HAPFLOW_MAX_SESSIONS: u32 = 64;
+pub const HAPFLOW_KIND_SESSION_CONFIG: u32 = 1;
+pub type hapflow_result = i32;
+pub const HAPFLOW_OK: _bindgen_ty_1 = 0;
+pub const HAPFLOW_REMARK_FORCE_HELD: _bindgen_ty_1 = 1;
+pub const HAPFLOW_REMARK_NO_TIME: _bindgen_ty_1 = 2;
+pub const HAPFLOW_REMARK_LATE: _bindgen_ty_1 = 3;
+pub const HAPFLOW_REMARK_MORE: _bindgen_ty_1 = 4;
+pub const HAPFLOW_ERROR_PANIC: _bindgen_ty_1 = -1;
+pub const HAPFLOW_ERROR_NOT_NEGOTIATED: _bindgen_ty_1 = -2;
+pub const HAPFLOW_ERROR_VERSION: _bindgen_ty_1 = -3;
+pub const HAPFLOW_ERROR_NULL: _bindgen_ty_1 = -4;
+pub const HAPFLOW_ERROR_HANDLE: _bindgen_ty_1 = -5;
+pub const HAPFLOW_ERROR_BUSY: _bindgen_ty_1 = -6;
+pub const HAPFLOW_ERROR_FULL: _bindgen_ty_1 = -7;
+pub const HAPFLOW_ERROR_STRUCT: _bindgen_ty_1 = -8;
+pub const HAPFLOW_ERROR_UNSUPPORTED: _bindgen_ty_1 = -9;
+pub const HAPFLOW_ERROR_TEXT: _bindgen_ty_1 = -10;
+pub const HAPFLOW_ERROR_SCENE: _bindgen_ty_1 = -11;
+pub const HAPFLOW_ERROR_NOT_FOUND: _bindgen_ty_1 = -12;
+pub const HAPFLOW_ERROR_SETTING: _bindgen_ty_1 = -13;
+pub const HAPFLOW_ERROR_VALUE: _bindgen_ty_1 = -14;
+pub const HAPFLOW_ERROR_FIXED: _bindgen_ty_1 = -15;
+pub const HAPFLOW_ERROR_NOT_FINITE: _bindgen_ty_1 = -16;
+pub const HAPFLOW_ERROR_ORIENTATION: _bindgen_ty_1 = -17;
+pub const HAPFLOW_ERROR_TIME: _bindgen_ty_1 = -18;
+pub const HAPFLOW_ERROR_FAULTED: _bindgen_ty_1 = -19;
+pub const HAPFLOW_ERROR_INDEX: _bindgen_ty_1 = -20;
+pub type _bindgen_ty_1 = ::core::ffi::c_int;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_scene_info {
+    pub size: u32,
+    pub reserved: u32,
+    pub name: *const ::core::ffi::c_char,
+    pub about: *const ::core::ffi::c_char,
+    pub toml: *const ::core::ffi::c_char,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_scene_info",
+    ][::core::mem::size_of::<hapflow_scene_info>() - 32usize];
+    [
+        "Alignment of hapflow_scene_info",
+    ][::core::mem::align_of::<hapflow_scene_info>() - 8usize];
+    [
+        "Offset of field: hapflow_scene_info::size",
+    ][::core::mem::offset_of!(hapflow_scene_info, size) - 0usize];
+    [
+        "Offset of field: hapflow_scene_info::reserved",
+    ][::core::mem::offset_of!(hapflow_scene_info, reserved) - 4usize];
+    [
+        "Offset of field: hapflow_scene_info::name",
+    ][::core::mem::offset_of!(hapflow_scene_info, name) - 8usize];
+    [
+        "Offset of field: hapflow_scene_info::about",
+    ][::core::mem::offset_of!(hapflow_scene_info, about) - 16usize];
+    [
+        "Offset of field: hapflow_scene_info::toml",
+    ][::core::mem::offset_of!(hapflow_scene_info, toml) - 24usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_device_info {
+    pub size: u32,
+    pub sensed_dof: u32,
+    pub driven_dof: u32,
+    pub hardware: u32,
+    pub max_force: f64,
+    pub name: *const ::core::ffi::c_char,
+    pub about: *const ::core::ffi::c_char,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_device_info",
+    ][::core::mem::size_of::<hapflow_device_info>() - 40usize];
+    [
+        "Alignment of hapflow_device_info",
+    ][::core::mem::align_of::<hapflow_device_info>() - 8usize];
+    [
+        "Offset of field: hapflow_device_info::size",
+    ][::core::mem::offset_of!(hapflow_device_info, size) - 0usize];
+    [
+        "Offset of field: hapflow_device_info::sensed_dof",
+    ][::core::mem::offset_of!(hapflow_device_info, sensed_dof) - 4usize];
+    [
+        "Offset of field: hapflow_device_info::driven_dof",
+    ][::core::mem::offset_of!(hapflow_device_info, driven_dof) - 8usize];
+    [
+        "Offset of field: hapflow_device_info::hardware",
+    ][::core::mem::offset_of!(hapflow_device_info, hardware) - 12usize];
+    [
+        "Offset of field: hapflow_device_info::max_force",
+    ][::core::mem::offset_of!(hapflow_device_info, max_force) - 16usize];
+    [
+        "Offset of field: hapflow_device_info::name",
+    ][::core::mem::offset_of!(hapflow_device_info, name) - 24usize];
+    [
+        "Offset of field: hapflow_device_info::about",
+    ][::core::mem::offset_of!(hapflow_device_info, about) - 32usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_session {
+    pub id: u64,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    ["Size of hapflow_session"][::core::mem::size_of::<hapflow_session>() - 8usize];
+    [
+        "Alignment of hapflow_session",
+    ][::core::mem::align_of::<hapflow_session>() - 8usize];
+    [
+        "Offset of field: hapflow_session::id",
+    ][::core::mem::offset_of!(hapflow_session, id) - 0usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_session_config {
+    pub kind: u32,
+    pub size: u32,
+    pub next: *const ::core::ffi::c_void,
+    pub scene: *const ::core::ffi::c_char,
+    pub toml: *const ::core::ffi::c_char,
+    pub toml_length: usize,
+    pub settings: *const ::core::ffi::c_char,
+    pub threads: u32,
+    pub reserved: u32,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_session_config",
+    ][::core::mem::size_of::<hapflow_session_config>() - 56usize];
+    [
+        "Alignment of hapflow_session_config",
+    ][::core::mem::align_of::<hapflow_session_config>() - 8usize];
+    [
+        "Offset of field: hapflow_session_config::kind",
+    ][::core::mem::offset_of!(hapflow_session_config, kind) - 0usize];
+    [
+        "Offset of field: hapflow_session_config::size",
+    ][::core::mem::offset_of!(hapflow_session_config, size) - 4usize];
+    [
+        "Offset of field: hapflow_session_config::next",
+    ][::core::mem::offset_of!(hapflow_session_config, next) - 8usize];
+    [
+        "Offset of field: hapflow_session_config::scene",
+    ][::core::mem::offset_of!(hapflow_session_config, scene) - 16usize];
+    [
+        "Offset of field: hapflow_session_config::toml",
+    ][::core::mem::offset_of!(hapflow_session_config, toml) - 24usize];
+    [
+        "Offset of field: hapflow_session_config::toml_length",
+    ][::core::mem::offset_of!(hapflow_session_config, toml_length) - 32usize];
+    [
+        "Offset of field: hapflow_session_config::settings",
+    ][::core::mem::offset_of!(hapflow_session_config, settings) - 40usize];
+    [
+        "Offset of field: hapflow_session_config::threads",
+    ][::core::mem::offset_of!(hapflow_session_config, threads) - 48usize];
+    [
+        "Offset of field: hapflow_session_config::reserved",
+    ][::core::mem::offset_of!(hapflow_session_config, reserved) - 52usize];
+};
+pub const HAPFLOW_SETTING_NUMBER: _bindgen_ty_2 = 1;
+pub const HAPFLOW_SETTING_INTEGER: _bindgen_ty_2 = 2;
+pub const HAPFLOW_SETTING_SWITCH: _bindgen_ty_2 = 3;
+pub const HAPFLOW_SETTING_CHOICE: _bindgen_ty_2 = 4;
+pub const HAPFLOW_SETTING_TEXT: _bindgen_ty_2 = 5;
+pub const HAPFLOW_SETTING_VECTOR: _bindgen_ty_2 = 6;
+pub type _bindgen_ty_2 = ::core::ffi::c_uint;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_setting_info {
+    pub size: u32,
+    pub kind: u32,
+    pub live: u32,
+    pub reserved: u32,
+    pub min: f64,
+    pub max: f64,
+    pub path: *const ::core::ffi::c_char,
+    pub group: *const ::core::ffi::c_char,
+    pub unit: *const ::core::ffi::c_char,
+    pub about: *const ::core::ffi::c_char,
+    pub choices: *const ::core::ffi::c_char,
+    pub usual: *const ::core::ffi::c_char,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_setting_info",
+    ][::core::mem::size_of::<hapflow_setting_info>() - 80usize];
+    [
+        "Alignment of hapflow_setting_info",
+    ][::core::mem::align_of::<hapflow_setting_info>() - 8usize];
+    [
+        "Offset of field: hapflow_setting_info::size",
+    ][::core::mem::offset_of!(hapflow_setting_info, size) - 0usize];
+    [
+        "Offset of field: hapflow_setting_info::kind",
+    ][::core::mem::offset_of!(hapflow_setting_info, kind) - 4usize];
+    [
+        "Offset of field: hapflow_setting_info::live",
+    ][::core::mem::offset_of!(hapflow_setting_info, live) - 8usize];
+    [
+        "Offset of field: hapflow_setting_info::reserved",
+    ][::core::mem::offset_of!(hapflow_setting_info, reserved) - 12usize];
+    [
+        "Offset of field: hapflow_setting_info::min",
+    ][::core::mem::offset_of!(hapflow_setting_info, min) - 16usize];
+    [
+        "Offset of field: hapflow_setting_info::max",
+    ][::core::mem::offset_of!(hapflow_setting_info, max) - 24usize];
+    [
+        "Offset of field: hapflow_setting_info::path",
+    ][::core::mem::offset_of!(hapflow_setting_info, path) - 32usize];
+    [
+        "Offset of field: hapflow_setting_info::group",
+    ][::core::mem::offset_of!(hapflow_setting_info, group) - 40usize];
+    [
+        "Offset of field: hapflow_setting_info::unit",
+    ][::core::mem::offset_of!(hapflow_setting_info, unit) - 48usize];
+    [
+        "Offset of field: hapflow_setting_info::about",
+    ][::core::mem::offset_of!(hapflow_setting_info, about) - 56usize];
+    [
+        "Offset of field: hapflow_setting_info::choices",
+    ][::core::mem::offset_of!(hapflow_setting_info, choices) - 64usize];
+    [
+        "Offset of field: hapflow_setting_info::usual",
+    ][::core::mem::offset_of!(hapflow_setting_info, usual) - 72usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_tool_state {
+    pub size: u32,
+    pub tool: u32,
+    pub buttons: u32,
+    pub reserved: u32,
+    pub time_s: f64,
+    pub dt_s: f64,
+    pub position: [f64; 3usize],
+    pub orientation: [f64; 4usize],
+    pub velocity: [f64; 3usize],
+    pub angular_velocity: [f64; 3usize],
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_tool_state",
+    ][::core::mem::size_of::<hapflow_tool_state>() - 136usize];
+    [
+        "Alignment of hapflow_tool_state",
+    ][::core::mem::align_of::<hapflow_tool_state>() - 8usize];
+    [
+        "Offset of field: hapflow_tool_state::size",
+    ][::core::mem::offset_of!(hapflow_tool_state, size) - 0usize];
+    [
+        "Offset of field: hapflow_tool_state::tool",
+    ][::core::mem::offset_of!(hapflow_tool_state, tool) - 4usize];
+    [
+        "Offset of field: hapflow_tool_state::buttons",
+    ][::core::mem::offset_of!(hapflow_tool_state, buttons) - 8usize];
+    [
+        "Offset of field: hapflow_tool_state::reserved",
+    ][::core::mem::offset_of!(hapflow_tool_state, reserved) - 12usize];
+    [
+        "Offset of field: hapflow_tool_state::time_s",
+    ][::core::mem::offset_of!(hapflow_tool_state, time_s) - 16usize];
+    [
+        "Offset of field: hapflow_tool_state::dt_s",
+    ][::core::mem::offset_of!(hapflow_tool_state, dt_s) - 24usize];
+    [
+        "Offset of field: hapflow_tool_state::position",
+    ][::core::mem::offset_of!(hapflow_tool_state, position) - 32usize];
+    [
+        "Offset of field: hapflow_tool_state::orientation",
+    ][::core::mem::offset_of!(hapflow_tool_state, orientation) - 56usize];
+    [
+        "Offset of field: hapflow_tool_state::velocity",
+    ][::core::mem::offset_of!(hapflow_tool_state, velocity) - 88usize];
+    [
+        "Offset of field: hapflow_tool_state::angular_velocity",
+    ][::core::mem::offset_of!(hapflow_tool_state, angular_velocity) - 112usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_wrench {
+    pub force: [f64; 3usize],
+    pub torque: [f64; 3usize],
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    ["Size of hapflow_wrench"][::core::mem::size_of::<hapflow_wrench>() - 48usize];
+    ["Alignment of hapflow_wrench"][::core::mem::align_of::<hapflow_wrench>() - 8usize];
+    [
+        "Offset of field: hapflow_wrench::force",
+    ][::core::mem::offset_of!(hapflow_wrench, force) - 0usize];
+    [
+        "Offset of field: hapflow_wrench::torque",
+    ][::core::mem::offset_of!(hapflow_wrench, torque) - 24usize];
+};
+pub const HAPFLOW_FAULT_INPUT: _bindgen_ty_3 = 1;
+pub const HAPFLOW_FAULT_FORCE: _bindgen_ty_3 = 2;
+pub const HAPFLOW_FAULT_PANIC: _bindgen_ty_3 = 4;
+pub const HAPFLOW_FAULT_DEVICE_LOST: _bindgen_ty_3 = 16;
+pub const HAPFLOW_FAULT_EMERGENCY_STOP: _bindgen_ty_3 = 32;
+pub const HAPFLOW_FAULT_FLUID: _bindgen_ty_3 = 128;
+pub const HAPFLOW_FAULT_STALE: _bindgen_ty_3 = 8;
+pub const HAPFLOW_FAULT_PATH_OVERFLOW: _bindgen_ty_3 = 64;
+pub const HAPFLOW_FAULT_LATE_TICK: _bindgen_ty_3 = 256;
+pub const HAPFLOW_FAULT_FORCE_LIMITED: _bindgen_ty_3 = 512;
+pub const HAPFLOW_FAULT_SLEW_LIMITED: _bindgen_ty_3 = 1024;
+pub type _bindgen_ty_3 = ::core::ffi::c_uint;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_report {
+    pub size: u32,
+    pub faults: u32,
+    pub tick: u64,
+    pub time_s: f64,
+    pub position: [f64; 3usize],
+    pub body: [f64; 3usize],
+    pub raw_force: [f64; 3usize],
+    pub raw_torque: [f64; 3usize],
+    pub force: [f64; 3usize],
+    pub torque: [f64; 3usize],
+    pub model_frame: u64,
+    pub model_age_s: f64,
+    pub fluid_frame: u64,
+    pub fluid_time_s: f64,
+    pub particles: u64,
+    pub substeps: u64,
+    pub max_speed: f64,
+    pub load_force: [f64; 3usize],
+    pub load_torque: [f64; 3usize],
+    pub degraded: u64,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    ["Size of hapflow_report"][::core::mem::size_of::<hapflow_report>() - 280usize];
+    ["Alignment of hapflow_report"][::core::mem::align_of::<hapflow_report>() - 8usize];
+    [
+        "Offset of field: hapflow_report::size",
+    ][::core::mem::offset_of!(hapflow_report, size) - 0usize];
+    [
+        "Offset of field: hapflow_report::faults",
+    ][::core::mem::offset_of!(hapflow_report, faults) - 4usize];
+    [
+        "Offset of field: hapflow_report::tick",
+    ][::core::mem::offset_of!(hapflow_report, tick) - 8usize];
+    [
+        "Offset of field: hapflow_report::time_s",
+    ][::core::mem::offset_of!(hapflow_report, time_s) - 16usize];
+    [
+        "Offset of field: hapflow_report::position",
+    ][::core::mem::offset_of!(hapflow_report, position) - 24usize];
+    [
+        "Offset of field: hapflow_report::body",
+    ][::core::mem::offset_of!(hapflow_report, body) - 48usize];
+    [
+        "Offset of field: hapflow_report::raw_force",
+    ][::core::mem::offset_of!(hapflow_report, raw_force) - 72usize];
+    [
+        "Offset of field: hapflow_report::raw_torque",
+    ][::core::mem::offset_of!(hapflow_report, raw_torque) - 96usize];
+    [
+        "Offset of field: hapflow_report::force",
+    ][::core::mem::offset_of!(hapflow_report, force) - 120usize];
+    [
+        "Offset of field: hapflow_report::torque",
+    ][::core::mem::offset_of!(hapflow_report, torque) - 144usize];
+    [
+        "Offset of field: hapflow_report::model_frame",
+    ][::core::mem::offset_of!(hapflow_report, model_frame) - 168usize];
+    [
+        "Offset of field: hapflow_report::model_age_s",
+    ][::core::mem::offset_of!(hapflow_report, model_age_s) - 176usize];
+    [
+        "Offset of field: hapflow_report::fluid_frame",
+    ][::core::mem::offset_of!(hapflow_report, fluid_frame) - 184usize];
+    [
+        "Offset of field: hapflow_report::fluid_time_s",
+    ][::core::mem::offset_of!(hapflow_report, fluid_time_s) - 192usize];
+    [
+        "Offset of field: hapflow_report::particles",
+    ][::core::mem::offset_of!(hapflow_report, particles) - 200usize];
+    [
+        "Offset of field: hapflow_report::substeps",
+    ][::core::mem::offset_of!(hapflow_report, substeps) - 208usize];
+    [
+        "Offset of field: hapflow_report::max_speed",
+    ][::core::mem::offset_of!(hapflow_report, max_speed) - 216usize];
+    [
+        "Offset of field: hapflow_report::load_force",
+    ][::core::mem::offset_of!(hapflow_report, load_force) - 224usize];
+    [
+        "Offset of field: hapflow_report::load_torque",
+    ][::core::mem::offset_of!(hapflow_report, load_torque) - 248usize];
+    [
+        "Offset of field: hapflow_report::degraded",
+    ][::core::mem::offset_of!(hapflow_report, degraded) - 272usize];
+};
+unsafe extern "C" {
+    pub fn hapflow_result_text(result: hapflow_result) -> *const ::core::ffi::c_char;
+    pub fn hapflow_last_error(
+        text: *mut ::core::ffi::c_char,
+        capacity: usize,
+        length: *mut usize,
+    ) -> hapflow_result;
+    pub fn hapflow_negotiate(
+        oldest: u32,
+        newest: u32,
+        chosen: *mut u32,
+    ) -> hapflow_result;
+    pub fn hapflow_version() -> u32;
+    pub fn hapflow_build_info(
+        text: *mut ::core::ffi::c_char,
+        capacity: usize,
+        length: *mut usize,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_info_init(
+        info: *mut hapflow_scene_info,
+        size: u32,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_count() -> u32;
+    pub fn hapflow_scene_get(
+        index: u32,
+        info: *mut hapflow_scene_info,
+    ) -> hapflow_result;
+    pub fn hapflow_device_info_init(
+        info: *mut hapflow_device_info,
+        size: u32,
+    ) -> hapflow_result;
+    pub fn hapflow_device_count() -> u32;
+    pub fn hapflow_device_get(
+        index: u32,
+        info: *mut hapflow_device_info,
+    ) -> hapflow_result;
+    pub fn hapflow_session_config_init(
+        config: *mut hapflow_session_config,
+        size: u32,
+    ) -> hapflow_result;
+    pub fn hapflow_session_create(
+        config: *const hapflow_session_config,
+        session: *mut hapflow_session,
+    ) -> hapflow_result;
+    pub fn hapflow_session_destroy(session: hapflow_session) -> hapflow_result;
+    pub fn hapflow_session_set(
+        session: hapflow_session,
+        path: *const ::core::ffi::c_char,
+        value: f64,
+    ) -> hapflow_result;
+    pub fn hapflow_session_set_vector(
+        session: hapflow_session,
+        path: *const ::core::ffi::c_char,
+        value: *const f64,
+    ) -> hapflow_result;
+    pub fn hapflow_session_set_text(
+        session: hapflow_session,
+        path: *const ::core::ffi::c_char,
+        value: *const ::core::ffi::c_char,
+    ) -> hapflow_result;
+    pub fn hapflow_session_get(
+        session: hapflow_session,
+        path: *const ::core::ffi::c_char,
+        value: *mut f64,
+    ) -> hapflow_result;
+    pub fn hapflow_session_get_text(
+        session: hapflow_session,
+        path: *const ::core::ffi::c_char,
+        text: *mut ::core::ffi::c_char,
+        capacity: usize,
+        length: *mut usize,
+    ) -> hapflow_result;
+    pub fn hapflow_setting_info_init(
+        info: *mut hapflow_setting_info,
+        size: u32,
+    ) -> hapflow_result;
+    pub fn hapflow_session_setting_count(
+        session: hapflow_session,
+        count: *mut u32,
+    ) -> hapflow_result;
+    pub fn hapflow_session_setting_info(
+        session: hapflow_session,
+        index: u32,
+        info: *mut hapflow_setting_info,
+    ) -> hapflow_result;
+    pub fn hapflow_session_emergency_stop(session: hapflow_session) -> hapflow_result;
+    pub fn hapflow_session_clear_faults(session: hapflow_session) -> hapflow_result;
+    pub fn hapflow_tool_state_init(
+        state: *mut hapflow_tool_state,
+        size: u32,
+    ) -> hapflow_result;
+    pub fn hapflow_servo_tick(
+        session: hapflow_session,
+        state: *const hapflow_tool_state,
+        wrench: *mut hapflow_wrench,
+    ) -> hapflow_result;
+    pub fn hapflow_fluid_advance(
+        session: hapflow_session,
+        time_s: f64,
+    ) -> hapflow_result;
+    pub fn hapflow_fluid_step(session: hapflow_session, end_s: f64) -> hapflow_result;
+    pub fn hapflow_fluid_particles(
+        session: hapflow_session,
+        positions: *mut f32,
+        capacity: usize,
+        count: *mut usize,
+    ) -> hapflow_result;
+    pub fn hapflow_report_init(report: *mut hapflow_report, size: u32) -> hapflow_result;
+    pub fn hapflow_session_report(
+        session: hapflow_session,
+        report: *mut hapflow_report,
+    ) -> hapflow_result;
+}
