@@ -254,6 +254,7 @@ impl Session {
             pace: None,
         };
         let live = Live::of(scene, threads);
+        live.config.check()?;
         let (mover, poses) = obstacle_poses(scene.obstacles.len());
         let obstacles = Obstacles::new(poses, live.config.world.bodies.get(1..).unwrap_or_default());
         let fluid = FluidUnit {

@@ -242,7 +242,7 @@ pub struct FluidConfig {
     pub world: World,
     /// Rate of fluid frames, Hz.
     pub frame_hz: f64,
-    /// Worker threads, at least 1.
+    /// Worker threads, 1 to 1024.
     pub threads: usize,
 }
 
@@ -306,6 +306,7 @@ impl FluidConfig {
         range("fluid.gravity", s.gravity.length(), 0.0, 100.0)?;
         range("fluid.restitution", s.restitution, 0.0, 1.0)?;
         range("run.fluid_hz", self.frame_hz, 10.0, 1000.0)?;
+        range("threads", self.threads as f64, 1.0, 1024.0)?;
         self.check_world()?;
         limits::check_substeps(self)
     }
