@@ -1,5 +1,5 @@
 // A host in real time: a servo loop at 1 kHz in the main thread, and the fluid in a thread of its own. Prints the force
-// four times a second.
+// a few times a second.
 //
 //     c++ -std=c++17 -pthread -Iinclude -Icpp/include examples/host_loop.cpp -Ltarget/release -lhapflow -o host_loop
 //     LD_LIBRARY_PATH=target/release ./host_loop 5
@@ -28,23 +28,22 @@ static hapflow::ToolState hand(double time_s, double dt_s) {
     return state;
 }
 
+static void print(const hapflow::Report& r) {
+    std::printf("%7.3f s  force %7.3f %7.3f %7.3f N  ticks %llu  frames %llu  faults %#x\n", r.time_s, r.force[0],
+                r.force[1], r.force[2], 0ULL + r.tick, 0ULL + r.fluid_frame, r.faults);
+}
+
 // The fluid's thread: one frame each period, and whatever may block, such as printing.
 static void run_fluid(hapflow::Session& session, Clock::time_point start, const std::atomic<bool>& running) {
-    const double period_s = 1 / session.get("run.fluid_hz");
-    double next_print_s = 0.25;
-    for (Clock::time_point next = start; running;) {
-        next += std::chrono::duration_cast<Clock::duration>(Seconds(period_s));
+    const Seconds period(1 / session.get("run.fluid_hz"));
+    Clock::time_point next = start;
+    for (int frame = 1; running; frame++) {
+        next += std::chrono::duration_cast<Clock::duration>(period);
         std::this_thread::sleep_until(next);
         const Clock::time_point now = Clock::now();
-        if (now > next) next = now; // too slow: what was missed is left out, not made up for
-        const double now_s = Seconds(now - start).count();
-        session.fluid_step(now_s);
-        if (now_s >= next_print_s) {
-            next_print_s += 0.25;
-            const hapflow::Report r = session.report();
-            std::printf("%6.2f s  force %7.3f %7.3f %7.3f N  faults %#x\n", r.time_s, r.force[0], r.force[1],
-                        r.force[2], r.faults);
-        }
+        if (now - next > period) next = now; // too slow: what was missed is left out, not made up for
+        session.fluid_step(Seconds(now - start).count());
+        if (frame % 25 == 0) print(session.report());
     }
 }
 
@@ -79,6 +78,7 @@ static void run(double seconds, const char* settings) {
     running = false;
     fluid.join();
     if (failure) std::rethrow_exception(failure);
+    print(session.report());
 }
 
 int main(int argc, char** argv) try {

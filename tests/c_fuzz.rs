@@ -132,7 +132,7 @@ impl Fuzz {
     }
 
     /// A call of a text or a buffer with room for `capacity`: what lies behind it stays.
-    fn into_buffer(&mut self, bytes_each: usize, call: impl Fn(*mut u8, usize, *mut usize) -> i32) -> i32 {
+    fn buffered(&mut self, bytes_each: usize, call: impl Fn(*mut u8, usize, *mut usize) -> i32) -> i32 {
         self.memory.fill(GUARD);
         let capacity = self.random.below(40) as usize;
         let start = self.random.below(8) as usize;
@@ -286,13 +286,11 @@ impl Fuzz {
             6 => self.get(),
             7 => {
                 let path = self.path();
-                self.into_buffer(1, |to, n, length| {
-                    (api.session_get_text)(session, path, to.cast(), n, length)
-                })
+                self.buffered(1, |to, n, length| (api.session_get_text)(session, path, to.cast(), n, length))
             }
-            8 => self.into_buffer(1, |to, n, length| (api.last_error)(to.cast(), n, length)),
-            9 => self.into_buffer(1, |to, n, length| (api.build_info)(to.cast(), n, length)),
-            10 => self.into_buffer(12, |to, n, length| (api.fluid_particles)(session, to.cast(), n, length)),
+            8 => self.buffered(1, |to, n, length| (api.last_error)(to.cast(), n, length)),
+            9 => self.buffered(1, |to, n, length| (api.build_info)(to.cast(), n, length)),
+            10 => self.buffered(12, |to, n, length| (api.fluid_particles)(session, to.cast(), n, length)),
             11 => (api.session_emergency_stop)(session),
             12 | 13 => (api.session_clear_faults)(session),
             14 => self.init(),

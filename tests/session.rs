@@ -143,7 +143,7 @@ fn owned(scene: &Scene, device: Box<dyn HapticDevice>) -> Session {
         servo_drive: Drive::Owned,
         fluid_drive: Drive::Owned,
         threads: 1,
-        device: Some(device),
+        devices: vec![device],
         ..SessionOptions::hosted()
     };
     Session::open(scene, options).unwrap()

@@ -5,7 +5,7 @@
 #     tools/bindings.sh --check    fails if that file is not what the header says
 #
 # Needs bindgen of the version below (cargo install bindgen-cli --locked --version VERSION) and libclang
-# (Debian: apt-get install libclang1 libclang-common-14-dev). BINDGEN may name another program.
+# (Debian: apt-get install libclang1-14 libclang-common-14-dev, or libclang-dev). BINDGEN may name another program.
 set -euo pipefail
 
 version=0.73.2

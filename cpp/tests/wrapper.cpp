@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <locale>
 #include <string>
 #include <thread>
 #include <type_traits>
@@ -176,6 +177,8 @@ static void creation_fails_with_the_reason() {
     config.threads = 0;
     config.toml = "[run]\nduration = soon\n";
     THROWS(HAPFLOW_ERROR_SCENE, {"2"}, Session{config});
+    config.toml = jet + std::string("\0no such line", 13); // its length counts, not its first NUL
+    THROWS(HAPFLOW_ERROR_SCENE, {}, Session{config});
     config.toml = "\xff";
     THROWS(HAPFLOW_ERROR_TEXT, {}, Session{config});
 }
@@ -228,6 +231,27 @@ static void a_tick_carries_every_field() {
     CHECK(session.tick(state).result == HAPFLOW_OK);
 }
 
+// A disc that is half in the jet is tilted.
+static void a_tick_gives_torque() {
+    Config config;
+    config.scene = "tap";
+    config.settings = "fluid.spacing = 0.01\nrun.fluid_hz = 60\ntool.shape = disc\ntool.radius = 0.04\n";
+    Session session(config);
+    ToolState state;
+    state.position[0] = 0.03;
+    Tick tick;
+    for (int n = 0; n < 400; n++) {
+        state.time_s = n * 1e-3;
+        session.fluid_advance(state.time_s);
+        tick = session.tick(state);
+    }
+    const hapflow::Report report = session.report();
+    for (std::size_t i = 0; i < 3; i++) {
+        CHECK(tick.wrench.torque[i] == report.torque[i] && tick.wrench.force[i] == report.force[i]);
+    }
+    CHECK(tick.wrench.torque[2] > 1e-4);
+}
+
 static void a_stop_holds_until_it_is_cleared() {
     Session session = open_jet();
     CHECK(!zero(run(session, 0, 100).wrench));
@@ -237,6 +261,18 @@ static void a_stop_holds_until_it_is_cleared() {
     CHECK((session.report().faults & HAPFLOW_FAULT_EMERGENCY_STOP) != 0);
     session.clear_faults();
     CHECK(!zero(run(session, 200, 300).wrench));
+}
+
+// As in German.
+struct Comma : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+};
+
+static void vectors_are_read_in_every_locale() {
+    const Session session = open_jet();
+    const std::locale before = std::locale::global(std::locale(std::locale::classic(), new Comma));
+    CHECK(session.get<Vec3>("fluid.gravity") == Vec3{{0, -9.81, 0}});
+    std::locale::global(before);
 }
 
 static void settings() {
@@ -408,8 +444,10 @@ int main() {
     creation_fails_with_the_reason();
     a_tick_gives_force();
     a_tick_carries_every_field();
+    a_tick_gives_torque();
     a_stop_holds_until_it_is_cleared();
     settings();
+    vectors_are_read_in_every_locale();
     fluid_and_particles();
     three_threads_on_one_session();
     moves_and_lives();

@@ -283,11 +283,11 @@ HAPFLOW_ASSERT_SIZE(hapflow_setting_info, 80);
 /* Empties `info`, for a struct of `size` bytes: sizeof *info. [any] Errors: NULL, STRUCT. */
 HAPFLOW_API hapflow_result hapflow_setting_info_init(hapflow_setting_info* info, uint32_t size);
 
-/* How many settings the session has: those of the scene, and those of each of its sources. [main] It stays as it is.
+/* How many settings the session has: those of the scene, of each of its sources, and of each obstacle. [main] It stays.
  * Errors: HANDLE, BUSY, NULL. */
 HAPFLOW_API hapflow_result hapflow_session_setting_count(hapflow_session session, uint32_t* count);
 
-/* The setting `index`, from 0. [main] The order is that of the documentation, with sources at the end.
+/* The setting `index`, from 0. [main] The order is that of the documentation, with sources and obstacles at the end.
  * Errors: HANDLE, BUSY, NULL, STRUCT, INDEX. */
 HAPFLOW_API hapflow_result hapflow_session_setting_info(hapflow_session session, uint32_t index,
                                                         hapflow_setting_info* info);

@@ -13,7 +13,7 @@ pub struct Prototype {
     pub name: String,
     /// As it is declared, on one line, without what marks it as exported.
     pub declared: String,
-    /// The comment above.
+    /// The comment above, on one line.
     pub comment: String,
 }
 
@@ -36,7 +36,8 @@ pub fn prototypes() -> Vec<Prototype> {
         let declared = header[at + MARK.len()..].split_once(';').unwrap().0;
         let name = declared.split_once('(').unwrap().0.rsplit([' ', '*']).next().unwrap();
         let comment = header[..at].rsplit_once("/*").unwrap().1;
-        Prototype { name: name.into(), declared: one_line(declared), comment: one_line(comment) }
+        let comment: String = comment.trim_end().trim_end_matches("*/").replace("\n *", "\n");
+        Prototype { name: name.into(), declared: one_line(declared), comment: one_line(&comment) }
     };
     header.match_indices(MARK).map(|(at, _)| prototype(at)).collect()
 }

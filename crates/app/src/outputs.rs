@@ -84,14 +84,17 @@ fn draw(scene: &Scene, picture: &Picture) -> image::Image {
             diameter: s.diameter as f32,
         })
         .collect();
+    let still = |shape, position: DVec3| Tool {
+        shape,
+        position: position.as_vec3().to_array(),
+        orientation: [0.0, 0.0, 0.0, 1.0],
+    };
+    // A run moves the first tool; the others stay where they start.
     let obstacles: Vec<Tool> = scene
         .obstacles
         .iter()
-        .map(|o| Tool {
-            shape: drawn(o.shape, o.radius, o.thickness),
-            position: o.position.as_vec3().to_array(),
-            orientation: [0.0, 0.0, 0.0, 1.0],
-        })
+        .map(|o| still(drawn(o.shape, o.radius, o.thickness), o.position))
+        .chain(scene.more_tools.iter().map(|t| still(drawn(t.shape, t.radius, t.thickness), t.position)))
         .collect();
     let caption =
         format!("{}   t = {:.2} s   {} particles", scene.name, picture.time_s, view.positions.len());

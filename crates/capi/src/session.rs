@@ -9,7 +9,7 @@ use crate::hooks;
 use crate::lane::Faultable;
 use crate::report::Report;
 use crate::servo::ServoSide;
-use crate::setting_info::{Panel, SettingInfo, plain};
+use crate::setting_info::{Names, Panel, SettingInfo, plain};
 use crate::table::{Handle, LIBRARY, Parts};
 use glam::DVec3;
 use hapflow_engine::{Control, Scene, Session, SessionOptions, Value};
@@ -36,15 +36,14 @@ pub struct MainSide {
     session: Session,
     control: Control,
     alarm: Alarm,
-    /// Names of the scene's sources, which stay.
-    sources: Vec<String>,
+    names: Names,
     /// Its settings, shown to C; made when it is first asked for.
     panel: Option<Panel>,
 }
 
 impl MainSide {
     fn panel(&mut self) -> &Panel {
-        self.panel.get_or_insert_with(|| Panel::new(&self.sources))
+        self.panel.get_or_insert_with(|| Panel::new(&self.names))
     }
 }
 
@@ -74,12 +73,11 @@ fn open(scene: &Scene, threads: usize) -> Result<Parts, Failure> {
         return Err(Failure { code: Code::ERROR_SCENE, text: "the session's halves are taken".into() });
     };
     let (control, alarm) = (session.control(), Alarm(SharedFlags::new()));
-    let sources = scene.sources.iter().map(|s| s.name.clone()).collect();
     Ok(Parts {
         servo: ServoSide::new(servo, alarm.clone()),
         fluid: FluidSide::new(fluid, alarm.clone(), scene.run.fluid_hz),
         any: AnySide { control: control.clone(), alarm: alarm.clone() },
-        main: MainSide { session, control, alarm, sources, panel: None },
+        main: MainSide { session, control, alarm, names: Names::of(scene), panel: None },
     })
 }
 

@@ -5,9 +5,8 @@ use crate::code::{Code, Failure};
 use crate::contract::as_in_header;
 use crate::fence::fence;
 use crate::generated as c;
-use hapflow_engine::settings::{Kind, SETTINGS, SOURCE_SETTINGS, Setting};
+use hapflow_engine::settings::{Kind, OBSTACLE_SETTINGS, SETTINGS, SOURCE_SETTINGS, Setting};
 use hapflow_engine::{Scene, Value};
-use hapflow_fluid::Source;
 
 /// `hapflow_setting_info`.
 #[repr(C)]
@@ -137,19 +136,42 @@ impl Entry {
     }
 }
 
+/// Settings of one of a scene's things, addressed by its name.
+fn entries<T: Default>(settings: &[Setting<T>], what: &str, name: &str) -> impl Iterator<Item = Entry> {
+    let usual = T::default();
+    settings.iter().map(move |s| Entry::new(s, &format!("{what}.{name}.{}", s.path), &usual))
+}
+
+/// Names of what a scene has any number of; a session keeps them.
+pub struct Names {
+    sources: Vec<String>,
+    obstacles: Vec<String>,
+}
+
+impl Names {
+    pub fn of(scene: &Scene) -> Self {
+        Self {
+            sources: scene.sources.iter().map(|s| s.name.clone()).collect(),
+            obstacles: scene.obstacles.iter().map(|o| o.name.clone()).collect(),
+        }
+    }
+}
+
 /// Every setting of a session. What it shows to C lasts as long as it.
 pub struct Panel(Vec<Entry>);
 
 impl Panel {
-    /// The settings of a scene, and of its `sources`.
-    pub fn new(sources: &[String]) -> Self {
-        let (scene, source) = (Scene::default(), Source::default());
-        let of_scene = SETTINGS.iter().map(|s| Entry::new(s, s.path, &scene));
-        let of_source = |name: &str| {
-            let entry = |s: &Setting<Source>| Entry::new(s, &format!("source.{name}.{}", s.path), &source);
-            SOURCE_SETTINGS.iter().map(entry).collect::<Vec<_>>()
-        };
-        Self(of_scene.chain(sources.iter().flat_map(|name| of_source(name))).collect())
+    /// Every setting that `names` have.
+    pub fn new(names: &Names) -> Self {
+        let scene = Scene::default();
+        let mut all: Vec<_> = SETTINGS.iter().map(|s| Entry::new(s, s.path, &scene)).collect();
+        for name in &names.sources {
+            all.extend(entries(SOURCE_SETTINGS, "source", name));
+        }
+        for name in &names.obstacles {
+            all.extend(entries(OBSTACLE_SETTINGS, "obstacle", name));
+        }
+        Self(all)
     }
 
     pub fn len(&self) -> u32 {

@@ -26,6 +26,7 @@ mod session;
 pub mod settings;
 pub mod signal;
 mod threads;
+mod tool_lane;
 mod value;
 
 pub use builtin::{load, shipped};
@@ -34,7 +35,7 @@ pub use fluid_unit::{FluidReport, FluidUnit};
 pub use obstacles::ObstacleMover;
 pub use recording::{Recording, Row};
 pub use scene::{
-    BackendKind, Change, DeviceKind, MAX_OBSTACLES, MappingSettings, Obstacle, RunSettings, Scene,
+    BackendKind, Change, DeviceKind, MAX_OBSTACLES, MAX_TOOLS, MappingSettings, Obstacle, RunSettings, Scene,
     ToolSettings, ToolShape,
 };
 pub use scene_file::parse;

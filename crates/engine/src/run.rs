@@ -147,12 +147,12 @@ pub fn real_time(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, Scen
         servo_drive: Drive::Owned,
         fluid_drive: Drive::Owned,
         threads: options.threads,
-        device: Some(open_device(scene)?),
+        devices: vec![open_device(scene)?],
         clock: Arc::clone(&clock) as Arc<dyn Clock>,
         tape: 8192,
     };
     let mut session = Session::open(scene, session_options)?;
-    let Some(mut tape) = session.take_tape() else {
+    let Some(mut tape) = session.take_tape(0) else {
         return Err(SceneError::Refused("the session has no tape".into()));
     };
     let mut run = Run::begin(scene);

@@ -56,9 +56,14 @@ pub enum ToolShape {
     Disc,
 }
 
-/// The tool in the hand.
+/// Most tools in a scene.
+pub const MAX_TOOLS: usize = 8;
+
+/// A tool in a hand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ToolSettings {
+    /// Name by which settings address it; the first tool needs none.
+    pub name: String,
     /// Its shape.
     pub shape: ToolShape,
     /// Radius, m.
@@ -98,6 +103,22 @@ impl Default for Obstacle {
     fn default() -> Self {
         let shape = ToolShape::Sphere;
         Self { name: "0".into(), shape, radius: 0.02, thickness: 0.01, position: DVec3::ZERO }
+    }
+}
+
+impl Default for ToolSettings {
+    /// A ball of 15 mm radius and 0.1 kg in the origin.
+    fn default() -> Self {
+        Self {
+            name: "0".into(),
+            shape: ToolShape::Sphere,
+            radius: 0.015,
+            thickness: 0.01,
+            mass: 0.1,
+            collision_response: 0.2,
+            position: DVec3::ZERO,
+            force_scale: 1.0,
+        }
     }
 }
 
@@ -150,8 +171,10 @@ pub struct Scene {
     pub pools: Vec<Aabb>,
     /// What else is solid.
     pub obstacles: Vec<Obstacle>,
-    /// The tool.
+    /// The first tool.
     pub tool: ToolSettings,
+    /// The others, each for a hand of its own.
+    pub more_tools: Vec<ToolSettings>,
     /// The safety gate.
     pub gate: GateSettings,
     /// From device to scene.
@@ -186,15 +209,8 @@ impl Default for Scene {
             sinks: Vec::new(),
             pools: Vec::new(),
             obstacles: Vec::new(),
-            tool: ToolSettings {
-                shape: ToolShape::Sphere,
-                radius: 0.015,
-                thickness: 0.01,
-                mass: 0.1,
-                collision_response: 0.2,
-                position: DVec3::ZERO,
-                force_scale: 1.0,
-            },
+            tool: ToolSettings::default(),
+            more_tools: Vec::new(),
             gate: GateSettings::default(),
             mapping: MappingSettings {
                 scale: 1.0,
@@ -211,14 +227,14 @@ impl Default for Scene {
 }
 
 impl Scene {
+    /// All tools, the first first.
+    pub fn tools(&self) -> impl Iterator<Item = &ToolSettings> {
+        std::iter::once(&self.tool).chain(&self.more_tools)
+    }
+
     /// What the fluid's backend needs to know.
     pub fn fluid_config(&self, threads: usize) -> FluidConfig {
-        let tool = BodyConfig {
-            shape: self.tool.shape(),
-            mass: self.tool.mass,
-            collision_response: self.tool.collision_response,
-            position: self.tool.position,
-        };
+        let tools = self.tools().map(tool_body);
         FluidConfig {
             settings: self.fluid.clone(),
             world: World {
@@ -228,7 +244,7 @@ impl Scene {
                 sources: self.sources.clone(),
                 sinks: self.sinks.clone(),
                 pools: self.pools.clone(),
-                bodies: std::iter::once(tool).chain(self.obstacles.iter().map(obstacle_body)).collect(),
+                bodies: tools.chain(self.obstacles.iter().map(obstacle_body)).collect(),
             },
             frame_hz: self.run.fluid_hz,
             threads,
@@ -288,9 +304,14 @@ impl Scene {
             let count = self.obstacles.len();
             return Err(SceneError::Refused(format!("{count} obstacles: there may be {MAX_OBSTACLES}")));
         }
+        if self.tools().count() > MAX_TOOLS {
+            let count = self.tools().count();
+            return Err(SceneError::Refused(format!("{count} tools: there may be {MAX_TOOLS}")));
+        }
+        let tools: Vec<_> = self.tools().map(|t| t.name.as_str()).collect();
         let sources: Vec<_> = self.sources.iter().map(|s| s.name.as_str()).collect();
         let obstacles: Vec<_> = self.obstacles.iter().map(|o| o.name.as_str()).collect();
-        for (kind, names) in [("source", sources), ("obstacle", obstacles)] {
+        for (kind, names) in [("tool", tools), ("source", sources), ("obstacle", obstacles)] {
             if let Some(name) =
                 (1..names.len()).find_map(|k| names[..k].contains(&names[k]).then_some(names[k]))
             {
@@ -304,15 +325,16 @@ impl Scene {
 
     /// A driven body that is too light would be thrown about.
     fn check_tool_mass(&self) -> Result<(), SceneError> {
-        let least = MIN_MASS_RATIO * self.fluid.rest_density * self.tool.shape().volume();
-        if self.run.coupling != CouplingKind::Momentum || self.tool.mass >= least {
-            return Ok(());
+        let least = |tool: &ToolSettings| MIN_MASS_RATIO * self.fluid.rest_density * tool.shape().volume();
+        let light = self.tools().find(|tool| tool.mass < least(tool));
+        match light.filter(|_| self.run.coupling == CouplingKind::Momentum) {
+            None => Ok(()),
+            Some(tool) => Err(SceneError::BadValue {
+                path: "tool.mass".into(),
+                value: format!("{}", tool.mass),
+                expected: format!("at least {:.3} kg for this tool with coupling momentum", least(tool)),
+            }),
         }
-        Err(SceneError::BadValue {
-            path: "tool.mass".into(),
-            value: format!("{}", self.tool.mass),
-            expected: format!("at least {least:.3} kg for this tool with coupling momentum"),
-        })
     }
 
     fn check_change(&self, k: usize, change: &Change) -> Result<(), SceneError> {
@@ -340,6 +362,15 @@ impl ToolSettings {
     /// The shape, with its sizes.
     pub fn shape(&self) -> Shape {
         self.shape.sized(self.radius, self.thickness)
+    }
+}
+
+fn tool_body(tool: &ToolSettings) -> BodyConfig {
+    BodyConfig {
+        shape: tool.shape(),
+        mass: tool.mass,
+        collision_response: tool.collision_response,
+        position: tool.position,
     }
 }
 

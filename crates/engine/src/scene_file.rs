@@ -1,7 +1,7 @@
 //! Reading a scene from TOML. Every error names the file, the line, the field, the value and what it must be.
 
-use crate::scene::{Change, Obstacle, Scene};
-use crate::settings::{self, OBSTACLE_SETTINGS, SOURCE_SETTINGS, Setting};
+use crate::scene::{Change, Obstacle, Scene, ToolSettings};
+use crate::settings::{self, OBSTACLE_SETTINGS, SOURCE_SETTINGS, Setting, TOOL_SETTINGS};
 use crate::{SceneError, Value};
 use glam::DVec3;
 use hapflow_devices::{HandPreset, HandSettings, Segment};
@@ -45,7 +45,7 @@ type Item<'i> = Spanned<DeValue<'i>>;
 const SECTIONS: [&str; 7] = ["container", "bounds", "source", "obstacle", "pool", "sink", "change"];
 
 /// Those that are read first.
-const NAMED: [&str; 3] = ["source", "obstacle", "hand"];
+const NAMED: [&str; 4] = ["source", "obstacle", "tool", "hand"];
 
 impl Reader<'_> {
     fn error_at(&self, offset: usize, what: &str) -> SceneError {
@@ -87,6 +87,19 @@ impl Reader<'_> {
                         source.name = name;
                     }
                     scene.sources.push(source);
+                }
+            }
+            ("tool", DeValue::Array(list)) => {
+                for (k, item) in list.iter().enumerate() {
+                    let mut tool = ToolSettings { name: k.to_string(), ..ToolSettings::default() };
+                    if let Some(name) = self.named("tool", item, TOOL_SETTINGS, &mut tool)? {
+                        tool.name = name;
+                    }
+                    if k == 0 {
+                        scene.tool = tool;
+                    } else {
+                        scene.more_tools.push(tool);
+                    }
                 }
             }
             ("obstacle", DeValue::Array(list)) => {

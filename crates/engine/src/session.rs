@@ -1,14 +1,15 @@
 //! A session: a scene made to run, its two halves, and what main may do with it.
 
-use crate::fluid_unit::{FluidReport, FluidUnit, start_sample};
+use crate::fluid_unit::{FluidReport, FluidUnit};
 use crate::obstacles::{ObstacleMover, Obstacles, obstacle_poses};
-use crate::scene::{BackendKind, DeviceKind, Scene};
+use crate::scene::{BackendKind, DeviceKind, Scene, ToolSettings};
 use crate::servo::{ServoReport, ServoSettings, ServoUnit};
 use crate::threads::{FluidPace, FluidThread, ServoThread, TickTimes};
+use crate::tool_lane::ToolLane;
 use crate::{SceneError, Value, settings};
 use glam::DVec3;
 use hapflow_devices::{AtEnd, HapticDevice, Motion, NullDevice, Replay, SimulatedHand, TargetScript};
-use hapflow_fluid::{AnalyticJet, BodySample, CpuBackend, FluidBackend, FluidConfig, ParticleView};
+use hapflow_fluid::{AnalyticJet, CpuBackend, FluidBackend, FluidConfig, ParticleView};
 use hapflow_haptics::{FaultSet, Filter, LocalModel, SafetyGate, ToolState};
 use hapflow_realtime::{
     Clock, HostClock, LatestReader, LatestWriter, RealtimeStatus, RingConsumer, SharedFlags, latest, ring,
@@ -34,8 +35,8 @@ pub struct SessionOptions {
     pub fluid_drive: Drive,
     /// Worker threads of the fluid; 0 takes all cores but one, and of two both.
     pub threads: usize,
-    /// The device of an owned servo.
-    pub device: Option<Box<dyn HapticDevice>>,
+    /// The devices of an owned servo, in the order of the scene's tools: a thread for each.
+    pub devices: Vec<Box<dyn HapticDevice>>,
     /// The clock of owned threads. An owned fluid under a host's servo keeps the servo's time instead: its
     /// ticks say what time it is.
     pub clock: Arc<dyn Clock>,
@@ -56,27 +57,9 @@ impl SessionOptions {
             servo_drive: Drive::Host,
             fluid_drive: Drive::Host,
             threads: 0,
-            device: None,
+            devices: Vec::new(),
             clock: Arc::new(hapflow_realtime::RealClock::new()),
             tape: 0,
-        }
-    }
-}
-
-/// Fluid settings as the fluid takes them over between frames.
-#[derive(Clone, Debug)]
-pub(crate) struct Live {
-    pub config: FluidConfig,
-    pub mass: f64,
-    pub collision_response: f64,
-}
-
-impl Live {
-    fn of(scene: &Scene, threads: usize) -> Self {
-        Self {
-            config: scene.fluid_config(threads),
-            mass: scene.tool.mass,
-            collision_response: scene.tool.collision_response,
         }
     }
 }
@@ -96,7 +79,8 @@ struct State {
     scene: Scene,
     /// Changes of the scene that are done.
     changed: usize,
-    servo: LatestWriter<ServoSettings>,
+    /// One for each tool.
+    servo: Vec<LatestWriter<ServoSettings>>,
 }
 
 impl Shared {
@@ -115,8 +99,10 @@ impl Shared {
 
     fn install(&self, state: &mut State, scene: Scene) {
         state.scene = scene;
-        let new = servo_settings(&state.scene);
-        state.servo.write(new);
+        let State { scene, servo, .. } = state;
+        for (writer, tool) in servo.iter_mut().zip(scene.tools()) {
+            writer.write(servo_settings(scene, tool));
+        }
         self.version.fetch_add(1, Ordering::Release);
     }
 
@@ -135,13 +121,13 @@ impl Shared {
     }
 
     /// The fluid's settings, if there are newer ones than `seen`.
-    pub fn newer_than(&self, seen: &mut u64) -> Option<Live> {
+    pub fn newer_than(&self, seen: &mut u64) -> Option<FluidConfig> {
         let version = self.version.load(Ordering::Acquire);
         if version == *seen {
             return None;
         }
         *seen = version;
-        Some(Live::of(&self.state().scene, self.threads))
+        Some(self.state().scene.fluid_config(self.threads))
     }
 
     /// Fills the view if main has asked for one.
@@ -153,15 +139,16 @@ impl Shared {
     }
 }
 
-fn servo_settings(scene: &Scene) -> ServoSettings {
-    ServoSettings { gate: scene.gate, force_scale: scene.tool.force_scale }
+fn servo_settings(scene: &Scene, tool: &ToolSettings) -> ServoSettings {
+    ServoSettings { gate: scene.gate, force_scale: tool.force_scale }
 }
 
 /// What any thread may do with a session: raise and clear faults.
 #[derive(Clone, Debug)]
 pub struct Control {
     flags: SharedFlags,
-    clear: SharedFlags,
+    /// One for each tool, whose gate answers it by itself.
+    clear: Vec<SharedFlags>,
 }
 
 impl Control {
@@ -173,7 +160,9 @@ impl Control {
     /// Takes back every fault; the force ramps in. Thread: any.
     pub fn clear_faults(&self) {
         self.flags.clear(u32::MAX);
-        self.clear.raise(1);
+        for tool in &self.clear {
+            tool.raise(1);
+        }
     }
 
     /// Faults that are raised. Thread: any.
@@ -185,19 +174,24 @@ impl Control {
 /// Threads that the session owns, if any.
 #[derive(Default)]
 struct Owned {
-    servo: Option<ServoThread>,
+    servos: Vec<ServoThread>,
     fluid: Option<FluidThread>,
+}
+
+/// Main's ends of the ways from and to one tool's servo.
+struct ToolEnds {
+    servo: Option<ServoUnit>,
+    report: LatestReader<ServoReport>,
+    tape: Option<RingConsumer<ServoReport>>,
 }
 
 /// A session. Thread: main.
 pub struct Session {
     shared: Arc<Shared>,
     control: Control,
-    report: LatestReader<ServoReport>,
+    tools: Vec<ToolEnds>,
     fluid_report: LatestReader<FluidReport>,
-    servo: Option<ServoUnit>,
     fluid: Option<FluidUnit>,
-    tape: Option<RingConsumer<ServoReport>>,
     mover: Option<ObstacleMover>,
     owned: Owned,
 }
@@ -216,106 +210,99 @@ impl Session {
     pub fn open(scene: &Scene, options: SessionOptions) -> Result<Self, SceneError> {
         scene.check()?;
         let threads = if options.threads == 0 { default_threads() } else { options.threads };
-        let (settings_writer, settings_reader) = latest(servo_settings(scene));
-        let (model_writer, model_reader) = latest(LocalModel::default());
-        let (report_writer, report_reader) = latest(ServoReport::default());
-        let (fluid_writer, fluid_reader) = latest(FluidReport::default());
-        // Two seconds of ticks: more than any fluid frame, and than the gate holds a stale force.
-        let (path_in, path_out) = ring(2048);
-        let (tape_in, tape) = (options.tape > 0).then(|| ring(options.tape)).unzip();
-        let control = Control { flags: SharedFlags::new(), clear: SharedFlags::new() };
-        let state = State { scene: scene.clone(), changed: 0, servo: settings_writer };
+        let config = scene.fluid_config(threads);
+        config.check()?;
+        let control =
+            Control { flags: SharedFlags::new(), clear: scene.tools().map(|_| SharedFlags::new()).collect() };
+        let (mut tools, mut lanes, mut writers) = (Vec::new(), Vec::new(), Vec::new());
+        for (tool, clear) in scene.tools().zip(&control.clear) {
+            let (ends, lane, writer) = open_tool(scene, tool, &control.flags, clear, options.tape)?;
+            tools.push(ends);
+            lanes.push(lane);
+            writers.push(writer);
+        }
         let shared = Arc::new(Shared {
-            state: Mutex::new(state),
+            state: Mutex::new(State { scene: scene.clone(), changed: 0, servo: writers }),
             version: AtomicU64::new(0),
             threads,
             wanted: AtomicBool::new(false),
             view: Mutex::new(ParticleView::default()),
             answered: AtomicU64::new(0),
         });
-        let mapping = scene.mapping()?;
-        let frame_s = 1.0 / scene.run.fluid_hz;
-        let servo = ServoUnit {
-            last_device: mapping.device_state(ToolState::at(scene.tool.position)),
-            mapping,
-            filter: Filter::new(&scene.filter(), 1000.0)?,
-            gate: SafetyGate::new(scene.gate)?,
-            force_scale: scene.tool.force_scale,
-            frame_s,
-            path: path_in,
-            model: model_reader,
-            settings: settings_reader,
-            flags: control.flags.clone(),
-            clear: control.clear.clone(),
-            report: report_writer,
-            tape: tape_in,
-            newest: ServoReport::default(),
-            started_s: 0.0,
-            pace: None,
-        };
-        let live = Live::of(scene, threads);
-        live.config.check()?;
+        let (report, fluid_report) = latest(FluidReport::default());
         let (mover, poses) = obstacle_poses(scene.obstacles.len());
-        let obstacles = Obstacles::new(poses, live.config.world.bodies.get(1..).unwrap_or_default());
         let fluid = FluidUnit {
-            backend: open_backend(scene, &live.config)?,
-            coupling: scene.run.coupling.build(),
-            path: path_out,
-            model: model_writer,
-            report: fluid_writer,
+            backend: open_backend(scene, &config)?,
+            obstacles: Obstacles::new(poses, &config.world.bodies[lanes.len()..]),
+            tools: lanes,
+            report,
             flags: control.flags.clone(),
             shared: Arc::clone(&shared),
             seen: 0,
-            live,
-            frame_s,
+            config,
+            frame_s: 1.0 / scene.run.fluid_hz,
             newest: FluidReport::default(),
-            pending: None,
-            body: BodySample::at(scene.tool.position),
-            samples: Vec::with_capacity(2050),
-            obstacles,
-            ahead: None,
-            last: start_sample(scene.tool.position),
-            path_end: scene.tool.position,
         };
-        let mut session = Self {
-            shared,
-            control,
-            report: report_reader,
-            fluid_report: fluid_reader,
-            servo: Some(servo),
-            fluid: Some(fluid),
-            tape,
-            mover: Some(mover),
-            owned: Owned::default(),
-        };
+        let (fluid, mover, owned) = (Some(fluid), Some(mover), Owned::default());
+        let mut session = Self { shared, control, tools, fluid_report, fluid, mover, owned };
         session.start(options)?;
         Ok(session)
     }
 
     fn start(&mut self, options: SessionOptions) -> Result<(), SceneError> {
-        let SessionOptions { servo_drive, fluid_drive, device, clock, .. } = options;
+        let SessionOptions { servo_drive, fluid_drive, devices, clock, .. } = options;
         if let Some(fluid) = self.fluid.take_if(|_| fluid_drive == Drive::Owned) {
-            self.owned.fluid = Some(match &mut self.servo {
-                Some(servo) if servo_drive == Drive::Host => {
+            self.owned.fluid = Some(match servo_drive {
+                Drive::Host => {
                     let host = Arc::new(HostClock::new());
-                    servo.pace = Some(Arc::clone(&host));
+                    for servo in self.tools.iter_mut().filter_map(|t| t.servo.as_mut()) {
+                        servo.pace = Some(Arc::clone(&host));
+                    }
                     FluidThread::start(fluid, Arc::clone(&host) as Arc<dyn Clock>, Some(host))?
                 }
-                _ => FluidThread::start(fluid, Arc::clone(&clock), None)?,
+                Drive::Owned => FluidThread::start(fluid, Arc::clone(&clock), None)?,
             });
         }
         if servo_drive == Drive::Owned {
-            let device = device.ok_or_else(|| SceneError::Refused("an owned servo needs a device".into()))?;
-            if let Some(servo) = self.servo.take() {
-                self.owned.servo = Some(ServoThread::start(servo, device, clock)?);
+            self.start_servos(devices, &clock)?;
+        }
+        Ok(())
+    }
+
+    /// One thread a device, for the first tools; a tool without a device stays where it is.
+    fn start_servos(
+        &mut self,
+        devices: Vec<Box<dyn HapticDevice>>,
+        clock: &Arc<dyn Clock>,
+    ) -> Result<(), SceneError> {
+        if devices.is_empty() || devices.len() > self.tools.len() {
+            let (devices, tools) = (devices.len(), self.tools.len());
+            let what =
+                format!("an owned servo needs a device, and each a tool: {devices} devices, {tools} tools");
+            return Err(SceneError::Refused(what));
+        }
+        for (ends, device) in self.tools.iter_mut().zip(devices) {
+            if let Some(servo) = ends.servo.take() {
+                self.owned.servos.push(ServoThread::start(servo, device, Arc::clone(clock))?);
             }
         }
         Ok(())
     }
 
-    /// The servo's half, once, if the host drives it.
+    /// How many tools the scene has.
+    pub fn tool_count(&self) -> usize {
+        self.tools.len()
+    }
+
+    /// The first tool's half of the servo, once, if the host drives it.
     pub fn take_servo(&mut self) -> Option<ServoUnit> {
-        self.servo.take()
+        self.take_servo_of(0)
+    }
+
+    /// The half of the servo for tool `tool` (from 0), once, if the host drives it. Each may have a thread of its
+    /// own.
+    pub fn take_servo_of(&mut self, tool: usize) -> Option<ServoUnit> {
+        self.tools.get_mut(tool)?.servo.take()
     }
 
     /// The fluid's half, once, if the host drives it.
@@ -328,9 +315,9 @@ impl Session {
         self.mover.take()
     }
 
-    /// Every tick's report in order, once, if the session was opened with a tape.
-    pub fn take_tape(&mut self) -> Option<RingConsumer<ServoReport>> {
-        self.tape.take()
+    /// Every tick's report of tool `tool` (from 0) in order, once, if the session was opened with a tape.
+    pub fn take_tape(&mut self, tool: usize) -> Option<RingConsumer<ServoReport>> {
+        self.tools.get_mut(tool)?.tape.take()
     }
 
     /// What any thread may do with the session.
@@ -354,10 +341,16 @@ impl Session {
         settings::get(&self.shared.state().scene, path)
     }
 
-    /// The newest servo tick.
+    /// The first tool's newest tick.
     pub fn report(&mut self) -> ServoReport {
-        self.report.update();
-        *self.report.get()
+        self.report_of(0).unwrap_or_default()
+    }
+
+    /// The newest tick of tool `tool` (from 0), if there is such a tool.
+    pub fn report_of(&mut self, tool: usize) -> Option<ServoReport> {
+        let report = &mut self.tools.get_mut(tool)?.report;
+        report.update();
+        Some(*report.get())
     }
 
     /// The newest fluid frame.
@@ -377,21 +370,24 @@ impl Session {
         self.shared.answered.load(Ordering::Acquire)
     }
 
-    /// What the system granted an owned servo thread.
+    /// What the system granted the first owned servo thread.
     pub fn realtime_status(&self) -> Option<RealtimeStatus> {
-        self.owned.servo.as_ref().map(ServoThread::status)
+        self.owned.servos.first().map(ServoThread::status)
     }
 
-    /// Whether an owned servo still ticks; it ends by itself when its device is lost.
+    /// Whether all owned servos still tick; one ends by itself when its device is lost.
     pub fn servo_runs(&self) -> bool {
-        self.owned.servo.as_ref().is_some_and(|s| !s.is_finished())
+        !self.owned.servos.is_empty() && self.owned.servos.iter().all(|s| !s.is_finished())
     }
 
-    /// Stops owned threads, the servo first, with zero force, and says how they kept time.
+    /// Stops owned threads, the servos first, with zero force, and says how the first of them and the fluid kept
+    /// time.
     pub fn close(&mut self) -> (TickTimes, FluidPace) {
-        let ticks = self.owned.servo.take().map(|mut s| s.stop()).unwrap_or_default();
+        let mut ticks = self.owned.servos.drain(..).map(|mut s| s.stop());
+        let first = ticks.next().unwrap_or_default();
+        ticks.for_each(drop);
         let pace = self.owned.fluid.take().map(|mut f| f.stop()).unwrap_or_default();
-        (ticks, pace)
+        (first, pace)
     }
 }
 
@@ -404,6 +400,43 @@ impl Drop for Session {
 /// All cores but one, which the servo needs; of two, both: the servo takes precedence and little time.
 fn default_threads() -> usize {
     std::thread::available_parallelism().map_or(1, |n| (n.get() - 1).max(n.get().min(2)))
+}
+
+/// Everything that one tool needs: main's ends, the fluid's, and the way of its settings.
+fn open_tool(
+    scene: &Scene,
+    tool: &ToolSettings,
+    flags: &SharedFlags,
+    clear: &SharedFlags,
+    tape: usize,
+) -> Result<(ToolEnds, ToolLane, LatestWriter<ServoSettings>), SceneError> {
+    let (settings_in, settings) = latest(servo_settings(scene, tool));
+    let (model_in, model) = latest(LocalModel::default());
+    let (report_in, report) = latest(ServoReport::default());
+    // Two seconds of ticks: more than any fluid frame, and than the gate holds a stale force.
+    let (path, path_out) = ring(2048);
+    let (tape_in, tape) = (tape > 0).then(|| ring(tape)).unzip();
+    let mapping = scene.mapping()?;
+    let servo = ServoUnit {
+        last_device: mapping.device_state(ToolState::at(tool.position)),
+        mapping,
+        filter: Filter::new(&scene.filter(), 1000.0)?,
+        gate: SafetyGate::new(scene.gate)?,
+        force_scale: tool.force_scale,
+        frame_s: 1.0 / scene.run.fluid_hz,
+        path,
+        model,
+        settings,
+        flags: flags.clone(),
+        clear: clear.clone(),
+        report: report_in,
+        tape: tape_in,
+        newest: ServoReport::default(),
+        started_s: 0.0,
+        pace: None,
+    };
+    let lane = ToolLane::new(scene.run.coupling.build(), path_out, model_in, tool.position);
+    Ok((ToolEnds { servo: Some(servo), report, tape }, lane, settings_in))
 }
 
 fn open_backend(scene: &Scene, config: &FluidConfig) -> Result<Box<dyn FluidBackend>, SceneError> {

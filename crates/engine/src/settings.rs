@@ -3,7 +3,7 @@
 //! Scene files, `--set`, `[[change]]`, the C ABI and the README's table all read it. Settings of a source are
 //! addressed by its name: `source.tap.speed`; those of an obstacle likewise.
 
-use crate::scene::{BackendKind, DeviceKind, Obstacle, Scene, ToolShape};
+use crate::scene::{BackendKind, DeviceKind, Obstacle, Scene, ToolSettings, ToolShape};
 use crate::{SceneError, Value};
 use hapflow_fluid::{InteractionMode, Solver, Source};
 use hapflow_haptics::{CouplingKind, FilterSpec};
@@ -545,6 +545,38 @@ fn set_filter(scene: &mut Scene, value: &Value) -> Result<(), String> {
     Ok(())
 }
 
+/// Settings of any tool but the first, addressed as `tool.NAME.…`.
+pub const TOOL_SETTINGS: &[Setting<ToolSettings>] = &[
+    choice!("shape", FIXED, shape, ["sphere" => ToolShape::Sphere, "disc" => ToolShape::Disc], "Shape of the tool; a disc lies flat, its axis up."),
+    number!("radius", "m", 1e-3..=0.5, LIVE, radius, "Radius of the tool."),
+    number!("thickness", "m", 1e-3..=0.5, LIVE, thickness, "Thickness of a disc."),
+    number!(
+        "mass",
+        "kg",
+        1e-3..=100.0,
+        LIVE,
+        mass,
+        "Mass of the tool's body in the fluid (coupling momentum)."
+    ),
+    number!(
+        "collision_response",
+        "",
+        0.0..=1.0,
+        LIVE,
+        collision_response,
+        "C_R: share of the fluid's impulse that the body takes (coupling momentum)."
+    ),
+    vector!("position", "m", -10.0..=10.0, FIXED, position, "Where the tool starts."),
+    number!(
+        "force_scale",
+        "",
+        0.0..=1000.0,
+        LIVE,
+        force_scale,
+        "Factor on the fluid's force before filter and gate."
+    ),
+];
+
 /// Settings of an obstacle, addressed as `obstacle.NAME.…`.
 pub const OBSTACLE_SETTINGS: &[Setting<Obstacle>] = &[
     choice!("shape", FIXED, shape, ["sphere" => ToolShape::Sphere, "disc" => ToolShape::Disc], "Its shape; a disc lies flat, its axis up."),
@@ -580,6 +612,12 @@ fn put(scene: &mut Scene, path: &str, value: &Value, live: bool) -> Result<(), S
         }
         return setting.put(&mut scene.obstacles[obstacle], path, value);
     }
+    if let Some((tool, setting)) = find_tool(scene, path) {
+        if fixed(setting.live) {
+            return Err(SceneError::NotLive(path.into()));
+        }
+        return setting.put(&mut scene.more_tools[tool], path, value);
+    }
     let setting = SETTINGS.iter().find(|s| s.path == path).ok_or_else(|| unknown(scene, path))?;
     if fixed(setting.live) {
         return Err(SceneError::NotLive(path.into()));
@@ -598,6 +636,9 @@ pub fn get(scene: &Scene, path: &str) -> Result<Value, SceneError> {
     if let Some((obstacle, setting)) = find_obstacle(scene, path) {
         return Ok(setting.get(&scene.obstacles[obstacle]));
     }
+    if let Some((tool, setting)) = find_tool(scene, path) {
+        return Ok(setting.get(&scene.more_tools[tool]));
+    }
     let setting = SETTINGS.iter().find(|s| s.path == path).ok_or_else(|| unknown(scene, path))?;
     Ok(setting.get(scene))
 }
@@ -606,6 +647,13 @@ fn find_source(scene: &Scene, path: &str) -> Option<(usize, &'static Setting<Sou
     let (name, field) = path.strip_prefix("source.")?.rsplit_once('.')?;
     let source = scene.sources.iter().position(|s| s.name == name)?;
     Some((source, SOURCE_SETTINGS.iter().find(|s| s.path == field)?))
+}
+
+/// A tool but the first, whose settings are in the one table of the scene.
+fn find_tool(scene: &Scene, path: &str) -> Option<(usize, &'static Setting<ToolSettings>)> {
+    let (name, field) = path.strip_prefix("tool.")?.rsplit_once('.')?;
+    let tool = scene.more_tools.iter().position(|t| t.name == name)?;
+    Some((tool, TOOL_SETTINGS.iter().find(|s| s.path == field)?))
 }
 
 fn find_obstacle(scene: &Scene, path: &str) -> Option<(usize, &'static Setting<Obstacle>)> {

@@ -31,11 +31,9 @@ impl HostClock {
         Self { now: AtomicU64::new(0), closed: AtomicBool::new(false) }
     }
 
-    /// It is now `t`; an earlier time than before is passed over. Thread: servo, one at a time.
+    /// It is now `t`; an earlier time than before is passed over. Thread: servo, any number of them.
     pub fn set_ns(&self, t: u64) {
-        if t > self.now.load(Ordering::Relaxed) {
-            self.now.store(t, Ordering::Release);
-        }
+        self.now.fetch_max(t, Ordering::AcqRel);
     }
 
     /// Nobody will move it on: every wait ends at once, now and later. Thread: any.

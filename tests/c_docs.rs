@@ -1,0 +1,313 @@
+//! The tables of `docs/c-abi.md`: every function as the header has it, and every mistake with what comes of it, tried
+//! out here.
+// A test's helpers fail as the test does.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod c_support;
+
+use c_support::header::{Prototype, prototypes};
+use c_support::{Api, Session, SessionConfig, ToolState, Variant, Wrench, code, made, root};
+use std::ffi::CStr;
+use std::ptr::{null, null_mut};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::{env, fs, thread};
+
+/// Compares a table of the document with `now`, or writes it there.
+fn compare(table: &str, now: &str) {
+    let path = root().join("docs/c-abi.md");
+    let text = fs::read_to_string(&path).unwrap();
+    let (begin, end) = (format!("<!-- {table} -->\n"), format!("<!-- end of {table} -->"));
+    let (before, rest) = text.split_once(&begin).unwrap_or_else(|| panic!("no {begin}"));
+    let (then, after) = rest.split_once(&end).unwrap_or_else(|| panic!("no {end}"));
+    if then != now && env::var_os("HAPFLOW_BLESS").is_some_and(|v| v == "1") {
+        fs::write(&path, [before, &begin, now, &end, after].concat()).unwrap();
+    } else {
+        assert_eq!(then, now, "docs/c-abi.md is old: HAPFLOW_BLESS=1 cargo test --test c_docs");
+    }
+}
+
+/// `| function | class | what it does | fails with |`
+fn row(function: &Prototype) -> String {
+    let (what, rest) = function.comment.split_once(". [").unwrap();
+    let (class, rest) = rest.split_once(']').unwrap();
+    let errors = rest.split_once("Errors: ").map_or("", |(_, e)| e.split_once('.').map_or(e, |e| e.0));
+    let errors = errors.replace("as hapflow_session_set", "as `hapflow_session_set`");
+    format!("| `{}` | {class} | {} | {errors} |\n", function.name, what)
+}
+
+#[test]
+fn the_table_of_functions_is_the_headers() {
+    let mut table = String::from("| function | class | what it does | fails with |\n|---|---|---|---|\n");
+    prototypes().iter().for_each(|function| table += &row(function));
+    compare("functions", &table);
+}
+
+/// What a mistake came to: the result, and the wrench if the call gives one.
+type Came = (i32, Option<Wrench>);
+
+/// A mistake in a session that has just felt its full force, in its tick 150.
+struct Mistake {
+    what: &'static str,
+    make: fn(&Api, Session) -> Came,
+}
+
+/// A tick with a state that is wrong.
+fn tick(api: &Api, session: Session, spoil: fn(&mut ToolState)) -> Came {
+    let mut state = api.state(150);
+    spoil(&mut state);
+    let (result, wrench) = api.tick(session, &state);
+    (result, Some(wrench))
+}
+
+fn create(api: &Api, spoil: fn(&mut SessionConfig)) -> Came {
+    let mut config = SessionConfig { scene: c"tap".as_ptr(), ..api.config() };
+    spoil(&mut config);
+    ((api.session_create)(&config, &mut Session::default()), None)
+}
+
+fn set_text(api: &Api, session: Session, path: &CStr, value: &CStr) -> Came {
+    ((api.session_set_text)(session, path.as_ptr(), value.as_ptr()), None)
+}
+
+/// The second of two threads that tick one session.
+fn tick_in_two_threads(api: &Api, session: Session) -> Came {
+    let (state, found) = (api.state(150), AtomicBool::new(false));
+    let until_found = || {
+        for _ in 0..50_000_000 {
+            let (result, wrench) = api.tick(session, &state);
+            if result == code::BUSY {
+                found.store(true, Ordering::Relaxed);
+                return Some((result, Some(wrench)));
+            }
+            if found.load(Ordering::Relaxed) {
+                return None;
+            }
+        }
+        None
+    };
+    thread::scope(|scope| {
+        let other = scope.spawn(until_found);
+        let mine = until_found();
+        mine.or(other.join().unwrap()).unwrap()
+    })
+}
+
+fn panicking(api: &Api, call: impl Fn() -> Came) -> Came {
+    (api.test_panic_next_call.unwrap())();
+    call()
+}
+
+const MISTAKES: &[Mistake] = &[
+    Mistake {
+        what: "a session is made before `hapflow_negotiate`",
+        make: |_, _| create(&Api::load(Variant::Hooks), |_| ()),
+    },
+    Mistake {
+        what: "a version that the library does not speak",
+        make: |api, _| ((api.negotiate)(7, 9, &mut 0), None),
+    },
+    Mistake {
+        what: "a pointer is null",
+        make: |api, session| ((api.session_get)(session, c"tool.radius".as_ptr(), null_mut()), None),
+    },
+    Mistake {
+        what: "a tick without a state",
+        make: |api, session| {
+            let mut wrench = Wrench::UNTOUCHED;
+            ((api.servo_tick)(session, null(), &mut wrench), Some(wrench))
+        },
+    },
+    Mistake {
+        what: "a tick without a wrench",
+        make: |api, session| ((api.servo_tick)(session, &api.state(150), null_mut()), None),
+    },
+    Mistake {
+        what: "a position that is NaN",
+        make: |api, session| tick(api, session, |s| s.position[1] = f64::NAN),
+    },
+    Mistake {
+        what: "a velocity that is infinite",
+        make: |api, session| tick(api, session, |s| s.velocity[0] = f64::INFINITY),
+    },
+    Mistake {
+        what: "a position 2 km away",
+        make: |api, session| tick(api, session, |s| s.position[2] = 2000.0),
+    },
+    Mistake {
+        what: "an orientation of zeros",
+        make: |api, session| tick(api, session, |s| s.orientation = [0.0; 4]),
+    },
+    Mistake {
+        what: "a time before the last tick's",
+        make: |api, session| tick(api, session, |s| s.time_s = 0.1),
+    },
+    Mistake { what: "a `dt_s` below zero", make: |api, session| tick(api, session, |s| s.dt_s = -1e-3) },
+    Mistake { what: "a `dt_s` of zero", make: |api, session| tick(api, session, |s| s.dt_s = 0.0) },
+    Mistake {
+        what: "a tick after a pause of half a second",
+        make: |api, session| tick(api, session, |s| s.dt_s = 0.5),
+    },
+    Mistake { what: "a tool that there is not", make: |api, session| tick(api, session, |s| s.tool = 1) },
+    Mistake {
+        what: "a tool state that no init function has made",
+        make: |api, session| tick(api, session, |s| s.size = 0),
+    },
+    Mistake {
+        what: "a tick of a session that is destroyed",
+        make: |api, session| {
+            assert_eq!((api.session_destroy)(session), code::OK);
+            tick(api, session, |_| ())
+        },
+    },
+    Mistake {
+        what: "a session is destroyed twice",
+        make: |api, session| {
+            assert_eq!((api.session_destroy)(session), code::OK);
+            ((api.session_destroy)(session), None)
+        },
+    },
+    Mistake { what: "two threads tick at once", make: tick_in_two_threads },
+    Mistake {
+        what: "the emergency stop, and a tick",
+        make: |api, session| {
+            assert_eq!((api.session_emergency_stop)(session), code::OK);
+            tick(api, session, |_| ())
+        },
+    },
+    Mistake {
+        what: "the fluid is advanced by another clock",
+        make: |api, session| ((api.fluid_advance)(session, 1e6), None),
+    },
+    Mistake {
+        what: "a frame ends before the last one",
+        make: |api, session| ((api.fluid_step)(session, 0.01), None),
+    },
+    Mistake {
+        what: "a setting outside its range",
+        make: |api, session| set_text(api, session, c"fluid.viscosity", c"-1"),
+    },
+    Mistake {
+        what: "a setting to NaN",
+        make: |api, session| ((api.session_set)(session, c"fluid.viscosity".as_ptr(), f64::NAN), None),
+    },
+    Mistake {
+        what: "a setting of the wrong type",
+        make: |api, session| set_text(api, session, c"fluid.viscosity", c"thick"),
+    },
+    Mistake {
+        what: "a setting that there is not",
+        make: |api, session| set_text(api, session, c"fluid.viscosty", c"1"),
+    },
+    Mistake {
+        what: "a setting that is not live",
+        make: |api, session| set_text(api, session, c"run.fluid_hz", c"60"),
+    },
+    Mistake { what: "a text that is not UTF-8", make: |api, session| set_text(api, session, c"\xff", c"1") },
+    Mistake {
+        what: "an index that is not below the count",
+        make: |api, session| {
+            ((api.session_setting_info)(session, 10_000, &mut made(api.setting_info_init)), None)
+        },
+    },
+    Mistake {
+        what: "a buffer that is too small",
+        make: |api, session| {
+            let mut text = [0; 4];
+            let path = c"run.backend".as_ptr();
+            ((api.session_get_text)(session, path, text.as_mut_ptr(), 4, &mut 0), None)
+        },
+    },
+    Mistake {
+        what: "no shipped scene of that name",
+        make: |api, _| create(api, |c| c.scene = c"tapp".as_ptr()),
+    },
+    Mistake { what: "both `scene` and `toml`", make: |api, _| create(api, |c| c.toml = c"".as_ptr()) },
+    Mistake {
+        what: "a scene file with an error",
+        make: |api, _| {
+            create(api, |c| {
+                c.scene = null();
+                c.toml = c"[fluid]\nspacing = -1\n".as_ptr();
+            })
+        },
+    },
+    Mistake {
+        what: "a struct that is chained, but not known",
+        make: |api, _| create(api, |c| c.next = MISTAKES.as_ptr().cast()),
+    },
+    Mistake {
+        what: "a configuration that no init function has made",
+        make: |api, _| create(api, |c| c.kind = 0),
+    },
+    Mistake {
+        what: "one session more than `HAPFLOW_MAX_SESSIONS`",
+        make: |api, _| {
+            let last = std::iter::repeat_with(|| api.try_create(c_support::JET)).take(65).last();
+            (last.unwrap().unwrap_err(), None)
+        },
+    },
+    Mistake {
+        what: "a panic inside the library, in a tick",
+        make: |api, session| panicking(api, || tick(api, session, |_| ())),
+    },
+    Mistake {
+        what: "a panic inside the library, in the fluid",
+        make: |api, session| panicking(api, || ((api.fluid_advance)(session, 0.15), None)),
+    },
+    Mistake {
+        what: "the fluid, after a panic in it",
+        make: |api, session| {
+            panicking(api, || ((api.fluid_advance)(session, 0.15), None));
+            ((api.fluid_advance)(session, 0.15), None)
+        },
+    },
+];
+
+/// The name of a result in the header, from the published numbers.
+fn name(result: i32) -> String {
+    let numbers = fs::read_to_string(root().join("crates/capi/abi/layouts.txt")).unwrap();
+    let is_it = |line: &&str| {
+        let kinds = ["HAPFLOW_OK ", "HAPFLOW_REMARK_", "HAPFLOW_ERROR_"];
+        kinds.iter().any(|k| line.starts_with(k)) && line.ends_with(&format!(" = {result}"))
+    };
+    let line = numbers.lines().find(is_it).unwrap_or_else(|| panic!("no result {result}"));
+    line.split_once(" = ").unwrap().0.trim_start_matches("HAPFLOW_").to_string()
+}
+
+/// A force in words, next to that of the ticks before.
+fn words(force: f64, full: f64) -> &'static str {
+    if force == 0.0 {
+        "zero"
+    } else if (force - full).abs() < 0.2 * full {
+        "as before"
+    } else {
+        panic!("{force} after {full}")
+    }
+}
+
+fn mistake_row(mistake: &Mistake) -> String {
+    let api = Api::ready(Variant::Hooks);
+    let session = api.jet();
+    let full = api.run(session, 0, 150).last().unwrap().force[1].abs();
+    assert!(full > 0.1);
+    let (result, wrench) = (mistake.make)(&api, session);
+    let during = wrench.map_or("-", |w| words(w.force[1].abs(), full));
+    let (next, wrench) = api.tick(session, &api.state(151));
+    let after = match next {
+        code::HANDLE => "-",
+        code::FORCE_HELD => "zero until cleared",
+        code::OK => words(wrench.force[1].abs(), full),
+        other => panic!("{}: then {other}", mistake.what),
+    };
+    assert!(after != "zero", "{}", mistake.what);
+    format!("| {} | `{}` | {during} | {after} |\n", mistake.what, name(result))
+}
+
+#[test]
+fn the_table_of_mistakes_is_what_happens() {
+    let mut table = String::from(
+        "| mistake | result | force of this call | of the next sound tick |\n|---|---|---|---|\n",
+    );
+    MISTAKES.iter().for_each(|mistake| table += &mistake_row(mistake));
+    compare("mistakes", &table);
+}
