@@ -16,7 +16,8 @@ pub(crate) struct Grid {
     dims: [usize; 3],
     /// First particle of each cell, and the end of the last.
     start: Vec<u32>,
-    /// Cell of each particle, after the sort.
+    /// Cell of each particle, before and after the sort.
+    unsorted: Vec<u32>,
     cell: Vec<u32>,
     order: Vec<u32>,
 }
@@ -26,43 +27,38 @@ impl Grid {
     pub fn sort(&mut self, particles: &mut Particles, support: f32, dead: &[bool]) {
         self.lay_out(particles, support, dead);
         let cells = self.dims.iter().product::<usize>();
+        // Counted two places on: the sums then stand one on, and the scatter moves each to its own place.
         self.start.clear();
-        self.start.resize(cells + 1, 0);
-        self.cell.clear();
+        self.start.resize(cells + 2, 0);
+        self.unsorted.clear();
         for (i, &dead) in dead.iter().enumerate().take(particles.len()) {
             let cell = if dead { u32::MAX } else { self.cell_at(particles, i) };
-            self.cell.push(cell);
+            self.unsorted.push(cell);
             if cell != u32::MAX {
-                self.start[cell as usize + 1] += 1;
+                self.start[cell as usize + 2] += 1;
             }
         }
-        for k in 0..cells {
-            self.start[k + 1] += self.start[k];
+        let mut sum = 0;
+        for count in &mut self.start {
+            sum += *count;
+            *count = sum;
         }
-        self.scatter();
+        self.scatter(sum as usize);
         particles.permute(&self.order);
-        let Self { cell, start, .. } = self;
-        cell.resize(particles.len(), 0);
-        for k in 0..cells {
-            cell[start[k] as usize..start[k + 1] as usize].fill(k as u32);
-        }
     }
 
     /// Stable: particles of one cell keep their order, so the result never depends on threads.
-    fn scatter(&mut self) {
-        let kept = self.start.last().copied().unwrap_or(0) as usize;
-        self.order.clear();
+    fn scatter(&mut self, kept: usize) {
         self.order.resize(kept, 0);
-        for (i, &cell) in self.cell.iter().enumerate() {
+        self.cell.resize(kept, 0);
+        for (i, &cell) in self.unsorted.iter().enumerate() {
             if cell != u32::MAX {
-                let slot = &mut self.start[cell as usize];
+                let slot = &mut self.start[cell as usize + 1];
                 self.order[*slot as usize] = i as u32;
+                self.cell[*slot as usize] = cell;
                 *slot += 1;
             }
         }
-        // Each start has moved to its end: shift them back by one cell.
-        self.start.rotate_right(1);
-        self.start[0] = 0;
     }
 
     fn lay_out(&mut self, p: &Particles, support: f32, dead: &[bool]) {
