@@ -5,7 +5,7 @@
 mod c_support;
 
 use c_support::{Api, JET, SessionConfig, SettingInfo, Variant, code, made, shown};
-use hapflow::engine::settings::{OBSTACLE_SETTINGS, SETTINGS, SOURCE_SETTINGS};
+use hapflow::engine::settings::{OBSTACLE_SETTINGS, SETTINGS, SOURCE_SETTINGS, TOOL_SETTINGS};
 use hapflow::engine::shipped;
 use std::collections::BTreeSet;
 use std::ffi::{CStr, CString};
@@ -16,18 +16,22 @@ fn ready() -> Api {
 }
 
 #[test]
-fn every_setting_is_listed_once_with_sources_and_obstacles_by_name() {
+fn every_setting_is_listed_once_with_the_scenes_things_by_name() {
     let api = ready();
     let two = format!("{JET}\n[[source]]\nname = \"hose\"\nposition = [0.05, 0.05, 0.0]\n")
         .replace("backend = \"analytic-jet\"", "")
-        + "[[obstacle]]\nname = \"stone\"\nposition = [0.0, -0.08, 0.0]\n";
+        + "[[obstacle]]\nname = \"stone\"\nposition = [0.0, -0.08, 0.0]\n"
+        + "[[tool]]\nradius = 0.02\n[[tool]]\nname = \"left\"\nposition = [0.06, 0.0, 0.0]\n";
     let session = api.try_create(&two).unwrap();
     let all = api.settings(session);
-    assert_eq!(all.len(), SETTINGS.len() + 2 * SOURCE_SETTINGS.len() + OBSTACLE_SETTINGS.len());
+    assert_eq!(
+        all.len(),
+        SETTINGS.len() + 2 * SOURCE_SETTINGS.len() + OBSTACLE_SETTINGS.len() + TOOL_SETTINGS.len()
+    );
     let paths: BTreeSet<_> = all.iter().map(|s| shown(s.path)).collect();
     assert_eq!(paths.len(), all.len());
     assert!(paths.contains("source.tap.speed") && paths.contains("source.hose.speed"));
-    assert!(paths.contains("obstacle.stone.radius"));
+    assert!(paths.contains("obstacle.stone.radius") && paths.contains("tool.left.radius"));
     for info in &all {
         let (path, group) = (shown(info.path), shown(info.group));
         assert_eq!(path.rsplit_once('.').unwrap().0, group);

@@ -33,6 +33,7 @@
  * - Everything is SI and double, right-handed, y up. Quaternions are x, y, z, w.
  * - A pointer must not be null unless its function says so (HAPFLOW_ERROR_NULL). It need not be aligned. What a
  *   pointer points to is the caller's, and is not looked at after the call. Texts are UTF-8 and end with a NUL.
+ * - Texts that the library shows are its own, never change, and last as long as is said where they stand.
  * - A number that is NaN or infinite is refused, everywhere (HAPFLOW_ERROR_NOT_FINITE).
  * - Handles are values. A stale one is refused (HAPFLOW_ERROR_HANDLE), as is zero, which is null.
  * - Structs that begin with a size are made by their init function, with their sizeof; configurations begin with
@@ -283,11 +284,12 @@ HAPFLOW_ASSERT_SIZE(hapflow_setting_info, 80);
 /* Empties `info`, for a struct of `size` bytes: sizeof *info. [any] Errors: NULL, STRUCT. */
 HAPFLOW_API hapflow_result hapflow_setting_info_init(hapflow_setting_info* info, uint32_t size);
 
-/* How many settings the session has: those of the scene, of each of its sources, and of each obstacle. [main] It stays.
+/* How many settings the session has: those of the scene with its first tool, and those of every other tool, source and
+ * obstacle by its name. [main] It stays as it is.
  * Errors: HANDLE, BUSY, NULL. */
 HAPFLOW_API hapflow_result hapflow_session_setting_count(hapflow_session session, uint32_t* count);
 
-/* The setting `index`, from 0. [main] The order is that of the documentation, with sources and obstacles at the end.
+/* The setting `index`, from 0. [main] The order is that of the documentation, with those by name at the end.
  * Errors: HANDLE, BUSY, NULL, STRUCT, INDEX. */
 HAPFLOW_API hapflow_result hapflow_session_setting_info(hapflow_session session, uint32_t index,
                                                         hapflow_setting_info* info);

@@ -5,7 +5,7 @@ use crate::code::{Code, Failure};
 use crate::contract::as_in_header;
 use crate::fence::fence;
 use crate::generated as c;
-use hapflow_engine::settings::{Kind, OBSTACLE_SETTINGS, SETTINGS, SOURCE_SETTINGS, Setting};
+use hapflow_engine::settings::{Kind, OBSTACLE_SETTINGS, SETTINGS, SOURCE_SETTINGS, Setting, TOOL_SETTINGS};
 use hapflow_engine::{Scene, Value};
 
 /// `hapflow_setting_info`.
@@ -144,6 +144,8 @@ fn entries<T: Default>(settings: &[Setting<T>], what: &str, name: &str) -> impl 
 
 /// Names of what a scene has any number of; a session keeps them.
 pub struct Names {
+    /// All but the first, whose settings need no name.
+    tools: Vec<String>,
     sources: Vec<String>,
     obstacles: Vec<String>,
 }
@@ -151,6 +153,7 @@ pub struct Names {
 impl Names {
     pub fn of(scene: &Scene) -> Self {
         Self {
+            tools: scene.more_tools.iter().map(|t| t.name.clone()).collect(),
             sources: scene.sources.iter().map(|s| s.name.clone()).collect(),
             obstacles: scene.obstacles.iter().map(|o| o.name.clone()).collect(),
         }
@@ -165,6 +168,9 @@ impl Panel {
     pub fn new(names: &Names) -> Self {
         let scene = Scene::default();
         let mut all: Vec<_> = SETTINGS.iter().map(|s| Entry::new(s, s.path, &scene)).collect();
+        for name in &names.tools {
+            all.extend(entries(TOOL_SETTINGS, "tool", name));
+        }
         for name in &names.sources {
             all.extend(entries(SOURCE_SETTINGS, "source", name));
         }
