@@ -6,7 +6,7 @@
 mod c_support;
 
 use c_support::header::{Prototype, prototypes};
-use c_support::{Api, Session, SessionConfig, ToolState, Variant, Wrench, code, made, root};
+use c_support::{Api, DRIVE_OWNED, Session, SessionConfig, ToolState, Variant, Wrench, code, made, root};
 use std::ffi::CStr;
 use std::ptr::{null, null_mut};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -181,6 +181,14 @@ const MISTAKES: &[Mistake] = &[
     Mistake {
         what: "a frame ends before the last one",
         make: |api, session| ((api.fluid_step)(session, 0.01), None),
+    },
+    Mistake {
+        what: "the host steps a fluid that the session steps",
+        make: |api, _| {
+            let owned = SessionConfig { fluid_drive: DRIVE_OWNED, ..api.config() };
+            let session = api.try_create_with(c_support::JET, owned).unwrap();
+            ((api.fluid_advance)(session, 0.15), None)
+        },
     },
     Mistake {
         what: "a setting outside its range",

@@ -5,7 +5,7 @@
 
 mod c_support;
 
-use c_support::{Api, JET, Random, Session, SessionConfig, ToolState, Variant, Wrench, code};
+use c_support::{Api, DRIVE_OWNED, JET, Random, Session, SessionConfig, ToolState, Variant, Wrench, code};
 use std::ffi::{CString, c_char};
 use std::ptr::{null, null_mut};
 
@@ -194,11 +194,12 @@ impl Fuzz {
             1 => config.size = self.random.below(56) as u32,
             2 => config.next = SCENES.as_ptr().cast(),
             3 => config.threads = self.random.next() as u32 | 1025,
-            4 => config.reserved = 1,
+            4 => config.fluid_drive = 2,
             5 => config.scene = c"tap".as_ptr(),
             6 => config.toml = null(),
             7 => config.settings = self.path(),
             8 => config.settings = c"run.fluid_hz = 60\n\n# x\nfluid.viscosity=1".as_ptr(),
+            9..=12 => config.fluid_drive = DRIVE_OWNED,
             _ => {}
         }
         if config.toml_length == 1 {
@@ -272,7 +273,7 @@ impl Fuzz {
 
     fn call(&mut self) -> i32 {
         let (api, session) = (self.api, self.session());
-        match self.random.below(24) {
+        match self.random.below(26) {
             0 => (api.negotiate)(self.random.below(3) as u32, self.random.below(3) as u32, self.place()),
             1 => self.create(),
             2 if self.random.below(6) == 0 => self.destroy(),
@@ -302,6 +303,7 @@ impl Fuzz {
             18 => (api.fluid_advance)(session, self.number()),
             19 => (api.fluid_step)(session, self.number()),
             20 => (api.session_setting_count)(session, self.place()),
+            21 => self.buffered(12, |to, n, length| (api.session_particles)(session, to.cast(), n, length)),
             _ => self.tick(),
         }
     }
@@ -310,7 +312,7 @@ impl Fuzz {
         for n in 0..calls {
             let result = self.call();
             // A panic is caught, but is a defect all the same.
-            let known = (code::INDEX..=code::MORE).contains(&result);
+            let known = (code::DRIVE..=code::MORE).contains(&result);
             assert!(known && ![code::PANIC, code::FAULTED].contains(&result), "call {n}: {result}");
             *self.results.entry(result).or_default() += 1;
         }
@@ -326,7 +328,7 @@ fn twenty_thousand_random_calls_do_no_harm() {
         // All that can come in one thread has come: the calls got somewhere.
         let rare =
             [code::PANIC, code::NOT_NEGOTIATED, code::BUSY, code::FULL, code::NOT_FOUND, code::FAULTED];
-        let missing: Vec<_> = (code::INDEX..=code::MORE)
+        let missing: Vec<_> = (code::DRIVE..=code::MORE)
             .filter(|r| !rare.contains(r) && !fuzz.results.contains_key(r))
             .collect();
         assert!(missing.is_empty(), "seed {seed}: never came: {missing:?} of {:?}", fuzz.results);

@@ -61,6 +61,8 @@ fn null_pointers_are_refused_and_outputs_stay() {
     assert_eq!((api.session_get_text)(session, path, null_mut(), 0, null_mut()), code::NULL);
     assert_eq!((api.session_report)(session, null_mut()), code::NULL);
     assert_eq!((api.fluid_particles)(session, null_mut(), 0, null_mut()), code::NULL);
+    assert_eq!((api.session_particles)(session, null_mut(), 0, null_mut()), code::NULL);
+    assert_eq!((api.session_particles)(session, null_mut(), 1, &mut 0), code::NULL);
     assert_eq!((api.servo_tick)(session, &state, null_mut()), code::NULL);
     let mut wrench = Wrench::UNTOUCHED;
     assert_eq!((api.servo_tick)(session, null(), &mut wrench), code::NULL);
@@ -82,6 +84,7 @@ fn stale_and_doubled_handles_are_codes() {
         assert_eq!((api.fluid_advance)(handle, 0.1), code::HANDLE);
         assert_eq!((api.fluid_step)(handle, 0.1), code::HANDLE);
         assert_eq!((api.fluid_particles)(handle, null_mut(), 0, &mut 0), code::HANDLE);
+        assert_eq!((api.session_particles)(handle, null_mut(), 0, &mut 0), code::HANDLE);
         assert_eq!(api.set(handle, "fluid.viscosity", 1.0), code::HANDLE);
         assert_eq!(api.get(handle, "fluid.viscosity"), Err(code::HANDLE));
         assert_eq!((api.session_emergency_stop)(handle), code::HANDLE);
@@ -205,7 +208,7 @@ fn a_bad_configuration_is_refused() {
         (code::STRUCT, SessionConfig { size: 8, ..good }),
         (code::STRUCT, SessionConfig { size: u32::MAX, ..good }),
         (code::UNSUPPORTED, SessionConfig { next: (&raw const good).cast(), ..good }),
-        (code::UNSUPPORTED, SessionConfig { reserved: 1, ..good }),
+        (code::UNSUPPORTED, SessionConfig { fluid_drive: 2, ..good }),
         (code::VALUE, SessionConfig { threads: 1025, ..good }),
         (code::SCENE, SessionConfig { toml, ..good }),
         (code::SCENE, SessionConfig { scene: null(), ..good }),
@@ -430,6 +433,36 @@ fn particles_come_in_two_calls() {
     assert_eq!((api.fluid_particles)(session, positions.as_mut_ptr(), count + 1, &mut count), code::OK);
     let (known, rest) = positions.split_at(3 * count);
     assert!(known.iter().all(|x| x.abs() < 0.15) && rest == [9.0; 3]);
+}
+
+#[test]
+fn particles_come_to_main_with_the_frame_after_they_were_asked_for() {
+    let api = ready();
+    let scene = JET.replace("backend = \"analytic-jet\"", "") + "\n[fluid]\nspacing = 0.01\n";
+    let session = api.try_create(&scene).unwrap();
+    let count = || {
+        let mut count = 9;
+        assert_eq!((api.session_particles)(session, null_mut(), 0, &mut count), code::OK);
+        count
+    };
+    assert_eq!(count(), 0);
+    api.run(session, 0, 51);
+    // What was asked for came with the first frame, before anything flowed in far.
+    let first = count();
+    assert!(first > 0);
+    // The count holds, though another frame comes.
+    api.run(session, 51, 101);
+    let mut positions = vec![9.0_f32; 3 * first + 3];
+    let mut fetch = |capacity| {
+        let mut told = 0;
+        let result = (api.session_particles)(session, positions.as_mut_ptr(), capacity, &mut told);
+        (result, told, positions[3 * capacity])
+    };
+    assert_eq!(fetch(first), (code::OK, first, 9.0));
+    // And a call that follows no count takes the newest.
+    let (result, newest, _) = fetch(2);
+    assert!(result == code::MORE && newest > first, "{newest} after {first}");
+    assert!(positions[..3 * first].iter().all(|x| x.abs() < 0.15));
 }
 
 #[test]

@@ -4,7 +4,7 @@
 
 mod c_support;
 
-use c_support::{Api, Session, Variant, Wrench, code};
+use c_support::{Api, DRIVE_OWNED, Session, SessionConfig, Variant, Wrench, code};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -135,6 +135,73 @@ fn sessions_of_several_threads_give_the_same() {
             });
         }
     });
+}
+
+/// A session that steps its fluid itself.
+fn owned(api: &Api, scene: &str) -> Session {
+    api.try_create_with(scene, SessionConfig { fluid_drive: DRIVE_OWNED, ..api.config() }).unwrap()
+}
+
+/// Ticks at the clock's own pace, until `done`; gives the number of the next tick.
+fn tick_until(api: &Api, session: Session, from: u64, done: impl Fn() -> bool) -> u64 {
+    let patience = Instant::now() + Duration::from_secs(20);
+    for n in from.. {
+        if done() {
+            return n;
+        }
+        assert!(Instant::now() < patience, "it never came");
+        assert!(api.tick(session, &api.state(n)).0 >= 0);
+        thread::sleep(Duration::from_millis(1));
+    }
+    from
+}
+
+#[test]
+fn a_session_steps_its_own_fluid_in_the_time_of_the_ticks() {
+    let api = Api::ready(Variant::Shipped);
+    let session = owned(&api, c_support::JET);
+    let force = || api.report(session).force[1];
+    let n = tick_until(&api, session, 0, || force() < -0.1);
+    for call in [
+        (api.fluid_advance)(session, 1.0),
+        (api.fluid_step)(session, 1.0),
+        (api.fluid_particles)(session, std::ptr::null_mut(), 0, &mut 0),
+    ] {
+        assert_eq!(call, code::DRIVE);
+    }
+    // Without ticks it stands still.
+    thread::sleep(Duration::from_millis(50));
+    let frame = api.report(session).fluid_frame;
+    thread::sleep(Duration::from_millis(100));
+    assert_eq!(api.report(session).fluid_frame, frame);
+    tick_until(&api, session, n, || api.report(session).fluid_frame > frame);
+    assert_eq!(api.set(session, "source.tap.speed", 0.5), code::OK);
+    assert_eq!((api.session_destroy)(session), code::OK);
+    assert_eq!(api.tick(session, &api.state(n)), (code::HANDLE, Wrench::ZERO));
+}
+
+#[test]
+fn an_owned_fluid_shows_its_particles_and_ends_in_the_middle_of_a_frame() {
+    let api = Api::ready(Variant::Shipped);
+    let cpu = c_support::JET.replace("backend = \"analytic-jet\"", "") + "\n[fluid]\nspacing = 0.01\n";
+    let session = owned(&api, &cpu);
+    let count = || {
+        let mut count = 0;
+        assert!((api.session_particles)(session, std::ptr::null_mut(), 0, &mut count) >= 0);
+        count
+    };
+    tick_until(&api, session, 0, || count() > 10);
+    let mut positions = vec![9.0_f32; 3 * count()];
+    let mut told = 0;
+    let room = positions.len() / 3;
+    let result = (api.session_particles)(session, positions.as_mut_ptr(), room, &mut told);
+    assert_eq!((result, told), (code::OK, room));
+    assert!(positions.iter().all(|x| x.abs() < 0.15));
+    for _ in 0..20 {
+        let session = owned(&api, &cpu);
+        assert_eq!(api.tick(session, &api.state(50)).0, code::OK);
+        assert_eq!((api.session_destroy)(session), code::OK);
+    }
 }
 
 /// A session with force, and the hook that makes the next call panic.

@@ -15,6 +15,9 @@
  *     }
  *     hapflow_session_destroy(session);
  *
+ * With config.fluid_drive = HAPFLOW_DRIVE_OWNED the session steps the fluid in a thread of its own, which keeps the
+ * time of the ticks: the loop is then hapflow_servo_tick alone.
+ *
  * Every function below says how it may be called, with one of these classes:
  *
  *     [main]   may block and allocate. One thread at a time a session; it need not always be the same.
@@ -103,6 +106,7 @@ enum {
     HAPFLOW_ERROR_TIME = -18, /* a time goes back, is negative, or is too far ahead */
     HAPFLOW_ERROR_FAULTED = -19, /* the fluid panicked before: destroy the session */
     HAPFLOW_ERROR_INDEX = -20, /* an index that is not below the count */
+    HAPFLOW_ERROR_DRIVE = -21, /* the session's own thread steps the fluid */
 };
 
 /* A sentence on a result, in English. [any] Never null; lasts as long as the process; any number may be asked. */
@@ -192,13 +196,21 @@ HAPFLOW_API hapflow_result hapflow_device_get(uint32_t index, hapflow_device_inf
 
 /* ---------------------------------------------------------------------------------------------------- sessions */
 
-/* A session: a scene, its fluid and its tool. The host drives both: it steps the fluid and ticks the servo. */
+/* A session: a scene, its fluid and its tool. The host ticks the servo; it steps the fluid, or the session does. */
 typedef struct hapflow_session {
     uint64_t id; /* 0: no session */
 } hapflow_session;
 HAPFLOW_ASSERT_SIZE(hapflow_session, 8);
 
 #define HAPFLOW_KIND_SESSION_CONFIG 1u
+
+/* Who steps the fluid: hapflow_session_config.fluid_drive. */
+enum {
+    HAPFLOW_DRIVE_HOST = 0, /* the host, by hapflow_fluid_advance or hapflow_fluid_step */
+    /* A thread of the session, once a fluid frame on the clock that the ticks move on: without ticks it stands still.
+     * Frames that it is too slow for are left out. It is as fast as the machine, so that no run is quite another's. */
+    HAPFLOW_DRIVE_OWNED = 1,
+};
 
 /* How a session is made. Exactly one of `scene` and `toml` is given. */
 typedef struct hapflow_session_config {
@@ -210,7 +222,7 @@ typedef struct hapflow_session_config {
     size_t toml_length; /* its bytes; 0: up to its NUL */
     const char* settings; /* lines `path = value` that are set on top, as "fluid.viscosity = 0.1\n"; or null */
     uint32_t threads; /* worker threads of the fluid, to 1024; 0: all cores but one. Results do not depend on it */
-    uint32_t reserved; /* 0 */
+    uint32_t fluid_drive; /* HAPFLOW_DRIVE_...; HOST by default */
 } hapflow_session_config;
 #if UINTPTR_MAX > 0xffffffffu
 HAPFLOW_ASSERT_SIZE(hapflow_session_config, 56);
@@ -341,26 +353,38 @@ HAPFLOW_API hapflow_result hapflow_servo_tick(hapflow_session session, const hap
 
 /* ---------------------------------------------------------------------------------------------------- fluid */
 
+/* The functions [fluid] are for a fluid that the host steps; one that the session steps refuses them
+ * (HAPFLOW_ERROR_DRIVE). */
+
 /* Steps every fluid frame that has ended by `time_s` on the servo's clock (s, 0 to 1e7); frame n ends at
  * n / run.fluid_hz. [fluid] Often there is none to step. Call it before the tick of the same time: the run is then the
  * same each time, to the last bit.
  *
  * A frame's model reaches the servo when the next frame ends, as on a machine that computes in real time.
- * Errors: HANDLE, BUSY, NOT_FINITE, FAULTED, TIME (more than 10 s after the newest frame's end: another clock?). */
+ * Errors: HANDLE, BUSY, DRIVE, NOT_FINITE, FAULTED, TIME (more than 10 s after the newest frame's end: another clock?). */
 HAPFLOW_API hapflow_result hapflow_fluid_advance(hapflow_session session, double time_s);
 
 /* Steps one frame, whose tool path ends at `end_s` on the servo's clock. [fluid] For a thread that steps in real
  * time, each period of run.fluid_hz, and leaves out what it was too slow for. `end_s` is after that of the frame
  * before, at most 1e7.
- * Errors: HANDLE, BUSY, NOT_FINITE, FAULTED, TIME. */
+ * Errors: HANDLE, BUSY, DRIVE, NOT_FINITE, FAULTED, TIME. */
 HAPFLOW_API hapflow_result hapflow_fluid_step(hapflow_session session, double end_s);
 
 /* The particles at the end of the newest frame. [fluid] `positions` has room for `capacity` particles, three floats
  * each (m); `count` becomes the number that there are. With a capacity of 0 `positions` may be null, and only the
  * count is told. Too small a buffer gets the first ones, and HAPFLOW_REMARK_MORE. The order is no identity.
- * Errors: HANDLE, BUSY, NULL, FAULTED. */
+ * Errors: HANDLE, BUSY, DRIVE, NULL, FAULTED. */
 HAPFLOW_API hapflow_result hapflow_fluid_particles(hapflow_session session, float* positions, size_t capacity,
                                                    size_t* count);
+
+/* The particles that came last, whoever steps the fluid. [main] `positions`, `capacity` and `count` as in
+ * hapflow_fluid_particles. A call with a capacity of 0 takes what has come, and asks for more, which comes with the
+ * next fluid frame; the call with a buffer after it gets what was taken, so that its count holds. One with a buffer
+ * that follows no such call takes and asks by itself. There are none until the first have come.
+ * May wait while the fluid copies its particles, for a fraction of a millisecond.
+ * Errors: HANDLE, BUSY, NULL. */
+HAPFLOW_API hapflow_result hapflow_session_particles(hapflow_session session, float* positions, size_t capacity,
+                                                     size_t* count);
 
 /* ---------------------------------------------------------------------------------------------------- report */
 

@@ -22,7 +22,7 @@ pub struct SessionConfig {
     pub toml_length: usize,
     pub settings: *const c_char,
     pub threads: u32,
-    pub reserved: u32,
+    pub fluid_drive: u32,
 }
 
 #[repr(C)]
@@ -171,6 +171,7 @@ functions! {
     fluid_advance: fn(Session, f64) -> i32;
     fluid_step: fn(Session, f64) -> i32;
     fluid_particles: fn(Session, *mut f32, usize, *mut usize) -> i32;
+    session_particles: fn(Session, *mut f32, usize, *mut usize) -> i32;
 }
 
 impl Api {
@@ -201,7 +202,12 @@ impl Api {
 
     /// Makes a session of a scene's text.
     pub fn try_create(&self, toml: &str) -> Result<Session, i32> {
-        let config = SessionConfig { toml: toml.as_ptr().cast(), toml_length: toml.len(), ..self.config() };
+        self.try_create_with(toml, self.config())
+    }
+
+    /// The same, with all else as `config` says.
+    pub fn try_create_with(&self, toml: &str, config: SessionConfig) -> Result<Session, i32> {
+        let config = SessionConfig { toml: toml.as_ptr().cast(), toml_length: toml.len(), ..config };
         let mut session = Session::default();
         match (self.session_create)(&config, &mut session) {
             code::OK => Ok(session),

@@ -39,7 +39,11 @@ pub mod code {
     pub const TIME: i32 = -18;
     pub const FAULTED: i32 = -19;
     pub const INDEX: i32 = -20;
+    pub const DRIVE: i32 = -21;
 }
+
+/// `hapflow_session_config.fluid_drive`: the session steps its fluid itself.
+pub const DRIVE_OWNED: u32 = 1;
 
 /// A jet in closed form on a ball at rest: a force at no cost.
 pub const JET: &str = r#"

@@ -184,6 +184,12 @@ impl Shown {
 }
 
 impl<T: Copy> Buffer<T> {
+    /// Refuses null, before any work is done.
+    pub fn check(self, capacity: usize, count: Out<usize>) -> Result<(), Code> {
+        count.check()?;
+        if capacity > 0 && self.0.is_null() { Err(Code::ERROR_NULL) } else { Ok(()) }
+    }
+
     /// Writes the first `capacity` of `values`; null only with a capacity of 0.
     fn fill(self, capacity: usize, values: &[T]) -> Result<usize, Code> {
         let count = capacity.min(values.len());

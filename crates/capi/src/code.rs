@@ -49,6 +49,7 @@ codes! {
     ERROR_TIME = HAPFLOW_ERROR_TIME, c"a time that goes back, is negative, or is too far ahead";
     ERROR_FAULTED = HAPFLOW_ERROR_FAULTED, c"the fluid panicked before; only destroying is left";
     ERROR_INDEX = HAPFLOW_ERROR_INDEX, c"an index that is not below the count";
+    ERROR_DRIVE = HAPFLOW_ERROR_DRIVE, c"the session's own thread steps the fluid";
 }
 
 impl Code {

@@ -4,11 +4,11 @@ use crate::caller::{Out, Record, Text};
 use crate::code::{Code, Failure};
 use crate::contract::as_in_header;
 use crate::fence::fence;
-use crate::generated::HAPFLOW_KIND_SESSION_CONFIG;
-use hapflow_engine::{Scene, Value, load, parse, settings};
+use crate::generated as c;
+use hapflow_engine::{Drive, Scene, Value, load, parse, settings};
 use std::ffi::c_void;
 
-const KIND: u32 = HAPFLOW_KIND_SESSION_CONFIG;
+const KIND: u32 = c::HAPFLOW_KIND_SESSION_CONFIG;
 /// Most worker threads: more is a mistake, and might not come up.
 const MOST_THREADS: u32 = 1024;
 
@@ -24,12 +24,12 @@ pub struct SessionConfig {
     toml_length: usize,
     settings: Text,
     threads: u32,
-    reserved: u32,
+    fluid_drive: u32,
 }
 
 as_in_header!(
     SessionConfig =
-        hapflow_session_config { kind, size, next, scene, toml, toml_length, settings, threads, reserved }
+        hapflow_session_config { kind, size, next, scene, toml, toml_length, settings, threads, fluid_drive }
 );
 
 // SAFETY: repr(C), no padding with pointers of 4 or 8 bytes; every field takes any bits.
@@ -49,7 +49,7 @@ impl SessionConfig {
         toml_length: 0,
         settings: Text::NULL,
         threads: 0,
-        reserved: 0,
+        fluid_drive: c::HAPFLOW_DRIVE_HOST,
     };
 
     /// Refuses what this version does not know.
@@ -57,7 +57,7 @@ impl SessionConfig {
         if self.kind != KIND {
             return Err(Code::ERROR_STRUCT.into());
         }
-        if !self.next.is_null() || self.reserved != 0 {
+        if !self.next.is_null() {
             return Err(Code::ERROR_UNSUPPORTED.into());
         }
         if self.threads > MOST_THREADS {
@@ -65,6 +65,19 @@ impl SessionConfig {
             return Err(Failure { code: Code::ERROR_VALUE, text });
         }
         Ok(())
+    }
+
+    /// Who steps the fluid.
+    pub fn fluid_drive(&self) -> Result<Drive, Failure> {
+        match self.fluid_drive {
+            c::HAPFLOW_DRIVE_HOST => Ok(Drive::Host),
+            c::HAPFLOW_DRIVE_OWNED => Ok(Drive::Owned),
+            other => {
+                let text =
+                    format!("fluid_drive = {other}: must be HAPFLOW_DRIVE_HOST or HAPFLOW_DRIVE_OWNED");
+                Err(Failure { code: Code::ERROR_UNSUPPORTED, text })
+            }
+        }
     }
 
     /// Worker threads of the fluid; 0 is all cores but one.

@@ -150,6 +150,7 @@ functions! {
     fluid::hapflow_fluid_advance(_, _);
     fluid::hapflow_fluid_step(_, _);
     fluid::hapflow_fluid_particles(_, _, _, _);
+    session::hapflow_session_particles(_, _, _, _);
     report::hapflow_report_init(_, _);
     session::hapflow_session_report(_, _);
 }

@@ -20,8 +20,15 @@ const SLACK_S: f64 = 1e-9;
 
 /// The fluid's part of a session.
 pub struct FluidSide {
-    unit: FluidUnit,
     alarm: Alarm,
+    broken: bool,
+    /// None: the session's own thread has it.
+    hosted: Option<HostedFluid>,
+}
+
+/// A fluid that the host steps.
+struct HostedFluid {
+    unit: FluidUnit,
     fluid_hz: f64,
     /// End of the newest frame on the servo's clock, s.
     end_s: f64,
@@ -30,7 +37,6 @@ pub struct FluidSide {
     view: ParticleView,
     /// Whether `view` shows the newest frame.
     viewed: bool,
-    broken: bool,
 }
 
 impl Faultable for FluidSide {
@@ -41,11 +47,29 @@ impl Faultable for FluidSide {
 }
 
 impl FluidSide {
-    pub fn new(unit: FluidUnit, alarm: Alarm, fluid_hz: f64) -> Self {
-        let view = ParticleView::default();
-        Self { unit, alarm, fluid_hz, end_s: 0.0, passed: 0, view, viewed: false, broken: false }
+    pub fn new(unit: Option<FluidUnit>, alarm: Alarm, fluid_hz: f64) -> Self {
+        let hosted = unit.map(|unit| HostedFluid {
+            unit,
+            fluid_hz,
+            end_s: 0.0,
+            passed: 0,
+            view: ParticleView::default(),
+            viewed: false,
+        });
+        Self { alarm, broken: false, hosted }
     }
 
+    /// The fluid, if the host may step it.
+    fn hosted(&mut self) -> Result<&mut HostedFluid, Code> {
+        // A backend that was left half way through a frame might wait for itself for ever.
+        if self.broken {
+            return Err(Code::ERROR_FAULTED);
+        }
+        self.hosted.as_mut().ok_or(Code::ERROR_DRIVE)
+    }
+}
+
+impl HostedFluid {
     fn step(&mut self, end_s: f64) -> Outcome {
         check_time(end_s)?;
         if end_s <= self.end_s {
@@ -97,28 +121,25 @@ fn check_time(time_s: f64) -> Result<(), Code> {
     if (0.0..=LATEST_S).contains(&time_s) { Ok(()) } else { Err(Code::ERROR_TIME) }
 }
 
-fn with_fluid(session: Handle, body: impl FnOnce(&mut FluidSide) -> Outcome) -> Code {
+fn with_fluid(session: Handle, body: impl FnOnce(&mut HostedFluid) -> Outcome) -> Code {
     fence(|| {
         let mut side = LIBRARY.fluid(session)?;
-        // A backend that was left half way through a frame might wait for itself for ever.
-        if side.broken {
-            return Err(Code::ERROR_FAULTED);
-        }
+        let fluid = side.hosted()?;
         hooks::panic_if_asked();
-        body(&mut side)
+        body(fluid)
     })
 }
 
 /// See the header.
 #[unsafe(no_mangle)]
 pub extern "C" fn hapflow_fluid_advance(session: Handle, time_s: f64) -> Code {
-    with_fluid(session, |side| side.advance(time_s))
+    with_fluid(session, |fluid| fluid.advance(time_s))
 }
 
 /// See the header.
 #[unsafe(no_mangle)]
 pub extern "C" fn hapflow_fluid_step(session: Handle, end_s: f64) -> Code {
-    with_fluid(session, |side| side.step(end_s))
+    with_fluid(session, |fluid| fluid.step(end_s))
 }
 
 /// See the header.
@@ -129,5 +150,5 @@ pub extern "C" fn hapflow_fluid_particles(
     capacity: usize,
     count: Out<usize>,
 ) -> Code {
-    with_fluid(session, |side| positions.enumerate(capacity, count, side.positions()))
+    with_fluid(session, |fluid| positions.enumerate(capacity, count, fluid.positions()))
 }

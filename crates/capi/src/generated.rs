@@ -30,6 +30,7 @@ pub const HAPFLOW_ERROR_ORIENTATION: _bindgen_ty_1 = -17;
 pub const HAPFLOW_ERROR_TIME: _bindgen_ty_1 = -18;
 pub const HAPFLOW_ERROR_FAULTED: _bindgen_ty_1 = -19;
 pub const HAPFLOW_ERROR_INDEX: _bindgen_ty_1 = -20;
+pub const HAPFLOW_ERROR_DRIVE: _bindgen_ty_1 = -21;
 pub type _bindgen_ty_1 = ::core::ffi::c_int;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -123,6 +124,9 @@ const _: () = {
         "Offset of field: hapflow_session::id",
     ][::core::mem::offset_of!(hapflow_session, id) - 0usize];
 };
+pub const HAPFLOW_DRIVE_HOST: _bindgen_ty_2 = 0;
+pub const HAPFLOW_DRIVE_OWNED: _bindgen_ty_2 = 1;
+pub type _bindgen_ty_2 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_session_config {
@@ -134,7 +138,7 @@ pub struct hapflow_session_config {
     pub toml_length: usize,
     pub settings: *const ::core::ffi::c_char,
     pub threads: u32,
-    pub reserved: u32,
+    pub fluid_drive: u32,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 #[cfg(target_pointer_width = "64")]
@@ -170,16 +174,16 @@ const _: () = {
         "Offset of field: hapflow_session_config::threads",
     ][::core::mem::offset_of!(hapflow_session_config, threads) - 48usize];
     [
-        "Offset of field: hapflow_session_config::reserved",
-    ][::core::mem::offset_of!(hapflow_session_config, reserved) - 52usize];
+        "Offset of field: hapflow_session_config::fluid_drive",
+    ][::core::mem::offset_of!(hapflow_session_config, fluid_drive) - 52usize];
 };
-pub const HAPFLOW_SETTING_NUMBER: _bindgen_ty_2 = 1;
-pub const HAPFLOW_SETTING_INTEGER: _bindgen_ty_2 = 2;
-pub const HAPFLOW_SETTING_SWITCH: _bindgen_ty_2 = 3;
-pub const HAPFLOW_SETTING_CHOICE: _bindgen_ty_2 = 4;
-pub const HAPFLOW_SETTING_TEXT: _bindgen_ty_2 = 5;
-pub const HAPFLOW_SETTING_VECTOR: _bindgen_ty_2 = 6;
-pub type _bindgen_ty_2 = ::core::ffi::c_uint;
+pub const HAPFLOW_SETTING_NUMBER: _bindgen_ty_3 = 1;
+pub const HAPFLOW_SETTING_INTEGER: _bindgen_ty_3 = 2;
+pub const HAPFLOW_SETTING_SWITCH: _bindgen_ty_3 = 3;
+pub const HAPFLOW_SETTING_CHOICE: _bindgen_ty_3 = 4;
+pub const HAPFLOW_SETTING_TEXT: _bindgen_ty_3 = 5;
+pub const HAPFLOW_SETTING_VECTOR: _bindgen_ty_3 = 6;
+pub type _bindgen_ty_3 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_setting_info {
@@ -314,18 +318,18 @@ const _: () = {
         "Offset of field: hapflow_wrench::torque",
     ][::core::mem::offset_of!(hapflow_wrench, torque) - 24usize];
 };
-pub const HAPFLOW_FAULT_INPUT: _bindgen_ty_3 = 1;
-pub const HAPFLOW_FAULT_FORCE: _bindgen_ty_3 = 2;
-pub const HAPFLOW_FAULT_PANIC: _bindgen_ty_3 = 4;
-pub const HAPFLOW_FAULT_DEVICE_LOST: _bindgen_ty_3 = 16;
-pub const HAPFLOW_FAULT_EMERGENCY_STOP: _bindgen_ty_3 = 32;
-pub const HAPFLOW_FAULT_FLUID: _bindgen_ty_3 = 128;
-pub const HAPFLOW_FAULT_STALE: _bindgen_ty_3 = 8;
-pub const HAPFLOW_FAULT_PATH_OVERFLOW: _bindgen_ty_3 = 64;
-pub const HAPFLOW_FAULT_LATE_TICK: _bindgen_ty_3 = 256;
-pub const HAPFLOW_FAULT_FORCE_LIMITED: _bindgen_ty_3 = 512;
-pub const HAPFLOW_FAULT_SLEW_LIMITED: _bindgen_ty_3 = 1024;
-pub type _bindgen_ty_3 = ::core::ffi::c_uint;
+pub const HAPFLOW_FAULT_INPUT: _bindgen_ty_4 = 1;
+pub const HAPFLOW_FAULT_FORCE: _bindgen_ty_4 = 2;
+pub const HAPFLOW_FAULT_PANIC: _bindgen_ty_4 = 4;
+pub const HAPFLOW_FAULT_DEVICE_LOST: _bindgen_ty_4 = 16;
+pub const HAPFLOW_FAULT_EMERGENCY_STOP: _bindgen_ty_4 = 32;
+pub const HAPFLOW_FAULT_FLUID: _bindgen_ty_4 = 128;
+pub const HAPFLOW_FAULT_STALE: _bindgen_ty_4 = 8;
+pub const HAPFLOW_FAULT_PATH_OVERFLOW: _bindgen_ty_4 = 64;
+pub const HAPFLOW_FAULT_LATE_TICK: _bindgen_ty_4 = 256;
+pub const HAPFLOW_FAULT_FORCE_LIMITED: _bindgen_ty_4 = 512;
+pub const HAPFLOW_FAULT_SLEW_LIMITED: _bindgen_ty_4 = 1024;
+pub type _bindgen_ty_4 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_report {
@@ -518,6 +522,12 @@ unsafe extern "C" {
     ) -> hapflow_result;
     pub fn hapflow_fluid_step(session: hapflow_session, end_s: f64) -> hapflow_result;
     pub fn hapflow_fluid_particles(
+        session: hapflow_session,
+        positions: *mut f32,
+        capacity: usize,
+        count: *mut usize,
+    ) -> hapflow_result;
+    pub fn hapflow_session_particles(
         session: hapflow_session,
         positions: *mut f32,
         capacity: usize,

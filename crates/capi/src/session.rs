@@ -12,7 +12,8 @@ use crate::servo::ServoSide;
 use crate::setting_info::{Names, Panel, SettingInfo, plain};
 use crate::table::{Handle, LIBRARY, Parts};
 use glam::DVec3;
-use hapflow_engine::{Control, Scene, Session, SessionOptions, Value};
+use hapflow_engine::{Control, Drive, Scene, Session, SessionOptions, Value};
+use hapflow_fluid::ParticleView;
 use hapflow_haptics::FaultSet;
 use hapflow_realtime::SharedFlags;
 use std::ffi::c_char;
@@ -39,11 +40,30 @@ pub struct MainSide {
     names: Names,
     /// Its settings, shown to C; made when it is first asked for.
     panel: Option<Panel>,
+    particles: Taken,
+}
+
+/// The particles that main has taken from the fluid.
+#[derive(Default)]
+struct Taken {
+    view: ParticleView,
+    /// Whether their count was told, and they were not yet fetched.
+    told: bool,
 }
 
 impl MainSide {
     fn panel(&mut self) -> &Panel {
         self.panel.get_or_insert_with(|| Panel::new(&self.names))
+    }
+
+    /// The particles for a call with room for `capacity`: new ones, unless it follows one that told their count.
+    fn positions(&mut self, capacity: usize) -> &[[f32; 3]] {
+        if capacity == 0 || !self.particles.told {
+            self.session.particles(&mut self.particles.view);
+            self.session.request_particles();
+        }
+        self.particles.told = capacity == 0;
+        &self.particles.view.positions
     }
 }
 
@@ -66,18 +86,26 @@ impl AnySide {
     }
 }
 
-/// Makes a session whose both halves are the host's.
-fn open(scene: &Scene, threads: usize) -> Result<Parts, Failure> {
-    let mut session = Session::open(scene, SessionOptions { threads, ..SessionOptions::hosted() })?;
-    let (Some(servo), Some(fluid)) = (session.take_servo(), session.take_fluid()) else {
-        return Err(Failure { code: Code::ERROR_SCENE, text: "the session's halves are taken".into() });
+/// Makes a session whose servo is the host's.
+fn open(scene: &Scene, threads: usize, fluid_drive: Drive) -> Result<Parts, Failure> {
+    let options = SessionOptions { threads, fluid_drive, ..SessionOptions::hosted() };
+    let mut session = Session::open(scene, options)?;
+    let (Some(servo), fluid) = (session.take_servo(), session.take_fluid()) else {
+        return Err(Failure { code: Code::ERROR_SCENE, text: "the session's servo is taken".into() });
     };
     let (control, alarm) = (session.control(), Alarm(SharedFlags::new()));
     Ok(Parts {
         servo: ServoSide::new(servo, alarm.clone()),
         fluid: FluidSide::new(fluid, alarm.clone(), scene.run.fluid_hz),
         any: AnySide { control: control.clone(), alarm: alarm.clone() },
-        main: MainSide { session, control, alarm, names: Names::of(scene), panel: None },
+        main: MainSide {
+            session,
+            control,
+            alarm,
+            names: Names::of(scene),
+            panel: None,
+            particles: Taken::default(),
+        },
     })
 }
 
@@ -114,8 +142,9 @@ pub extern "C" fn hapflow_session_create(config: In<SessionConfig>, session: Out
         session.check()?;
         let config = config.read(SessionConfig::DEFAULT)?;
         config.check()?;
+        let drive = config.fluid_drive()?;
         hooks::panic_if_asked();
-        let parts = open(&config.scene()?, config.threads())?;
+        let parts = open(&config.scene()?, config.threads(), drive)?;
         session.put(LIBRARY.place(parts)?)?;
         Ok(Code::OK)
     })
@@ -206,6 +235,20 @@ pub extern "C" fn hapflow_session_setting_info(session: Handle, index: u32, info
         info.check_record()?;
         info.fill(&side.panel().get(index)?)?;
         Ok(Code::OK)
+    })
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_particles(
+    session: Handle,
+    positions: Buffer<[f32; 3]>,
+    capacity: usize,
+    count: Out<usize>,
+) -> Code {
+    with_main(session, |side| {
+        positions.check(capacity, count)?;
+        Ok(positions.enumerate(capacity, count, side.positions(capacity))?)
     })
 }
 
