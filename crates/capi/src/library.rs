@@ -1,8 +1,8 @@
 //! Versions, texts of results, and the last error.
 
 use crate::caller::{Buffer, Out};
-use crate::code::Code;
-use crate::fence::fence;
+use crate::code::{Code, Failure};
+use crate::fence::{fence, fence_main};
 use crate::generated::HAPFLOW_ABI_VERSION;
 use crate::table::LIBRARY;
 use std::cell::RefCell;
@@ -24,11 +24,15 @@ pub fn set_last_error(text: String) {
 /// See the header.
 #[unsafe(no_mangle)]
 pub extern "C" fn hapflow_negotiate(oldest: u32, newest: u32, chosen: Out<u32>) -> Code {
-    fence(|| {
+    fence_main(|| {
         chosen.check()?;
         let best = newest.min(NEWEST_ABI);
         if best < oldest.max(OLDEST_ABI) {
-            return Err(Code::ERROR_VERSION);
+            let text = format!(
+                "the host wants version {oldest} to {newest} of the interface, this library has {OLDEST_ABI} to \
+                 {NEWEST_ABI}"
+            );
+            return Err(Failure { code: Code::ERROR_VERSION, text });
         }
         LIBRARY.agree(best);
         chosen.put(best)?;
