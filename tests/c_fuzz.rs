@@ -264,7 +264,8 @@ impl Fuzz {
             self.memory[..4].copy_from_slice(&size);
         }
         match self.random.below(4) {
-            0 => (api.session_report)(session, self.place()),
+            0 if index < 50 => (api.session_report)(session, self.place()),
+            0 => (api.session_report_of)(session, index % 3, self.place()),
             1 => (api.scene_get)(index % 6, self.place()),
             2 => (api.device_get)(index % 5, self.place()),
             _ => (api.session_setting_info)(session, index, self.place()),
@@ -301,6 +302,7 @@ impl Fuzz {
                 (api.fluid_advance)(session, time_s)
             }
             18 => (api.fluid_advance)(session, self.number()),
+            19 if self.random.below(2) == 0 => (api.session_tool_count)(session, self.place()),
             19 => (api.fluid_step)(session, self.number()),
             20 => (api.session_setting_count)(session, self.place()),
             21 => self.buffered(12, |to, n, length| (api.session_particles)(session, to.cast(), n, length)),

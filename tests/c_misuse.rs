@@ -4,7 +4,9 @@
 
 mod c_support;
 
-use c_support::{Api, JET, Random, Report, Session, SessionConfig, ToolState, Variant, Wrench, code};
+use c_support::{
+    Api, JET, Random, Report, SECOND, Session, SessionConfig, ToolState, Variant, Wrench, code, made,
+};
 use hapflow::engine::parse;
 use hapflow::engine::run::{RunOptions, virtual_clock};
 use hapflow::haptics::FaultSet;
@@ -60,6 +62,8 @@ fn null_pointers_are_refused_and_outputs_stay() {
     assert_eq!((api.session_get)(session, path, null_mut()), code::NULL);
     assert_eq!((api.session_get_text)(session, path, null_mut(), 0, null_mut()), code::NULL);
     assert_eq!((api.session_report)(session, null_mut()), code::NULL);
+    assert_eq!((api.session_report_of)(session, 0, null_mut()), code::NULL);
+    assert_eq!((api.session_tool_count)(session, null_mut()), code::NULL);
     assert_eq!((api.fluid_particles)(session, null_mut(), 0, null_mut()), code::NULL);
     assert_eq!((api.session_particles)(session, null_mut(), 0, null_mut()), code::NULL);
     assert_eq!((api.session_particles)(session, null_mut(), 1, &mut 0), code::NULL);
@@ -90,6 +94,9 @@ fn stale_and_doubled_handles_are_codes() {
         assert_eq!((api.session_emergency_stop)(handle), code::HANDLE);
         assert_eq!((api.session_clear_faults)(handle), code::HANDLE);
         assert_eq!((api.session_report)(handle, null_mut()), code::HANDLE);
+        assert_eq!((api.session_report_of)(handle, 1, null_mut()), code::HANDLE);
+        assert_eq!((api.session_tool_count)(handle, null_mut()), code::HANDLE);
+        assert_eq!(api.tick(handle, &ToolState { tool: 1, ..api.state(0) }), (code::HANDLE, Wrench::ZERO));
     }
     assert_eq!(api.run(new, 0, 5).len(), 5);
     assert_eq!(((api.session_destroy)(new), (api.session_destroy)(new)), (code::OK, code::HANDLE));
@@ -120,7 +127,8 @@ fn bad_states(good: ToolState) -> Vec<(i32, ToolState)> {
     bad.push((code::TIME, ToolState { time_s: good.time_s - 1e-3, ..good }));
     bad.push((code::TIME, ToolState { time_s: -1.0, ..good }));
     bad.push((code::TIME, ToolState { time_s: 2e7, ..good }));
-    bad.push((code::UNSUPPORTED, ToolState { tool: 1, ..good }));
+    bad.push((code::INDEX, ToolState { tool: 1, ..good }));
+    bad.push((code::INDEX, ToolState { tool: u32::MAX, ..good }));
     bad.push((code::UNSUPPORTED, ToolState { reserved: 1, ..good }));
     bad.push((code::STRUCT, ToolState { size: 0, ..good }));
     bad.push((code::STRUCT, ToolState { size: 135, ..good }));
@@ -142,6 +150,80 @@ fn a_bad_state_gives_no_force_until_it_is_cleared_and_then_no_jump() {
         assert!(first < 0.1 * full, "{first} N at once after {state:?}, case {n}");
     }
     assert!(felt(api.run(session, 150, 200).last().unwrap()) > 0.9 * full);
+}
+
+/// Both tools of a session, at rest in their jets, over the ticks `from..to`; the last results and wrenches.
+fn run_two(api: &Api, session: Session, from: u64, to: u64) -> [(i32, Wrench); 2] {
+    let mut last = [(code::OK, Wrench::ZERO); 2];
+    for n in from..to {
+        let state = api.state(n);
+        assert_eq!((api.fluid_advance)(session, state.time_s), code::OK);
+        let second = ToolState { tool: 1, position: [0.06, 0.0, 0.0], ..state };
+        last = [state, second].map(|state| api.tick(session, &state));
+    }
+    last
+}
+
+#[test]
+fn each_tool_has_its_own_force_and_a_bad_state_of_one_stops_both() {
+    let api = ready();
+    let session = api.try_create(&format!("{JET}{SECOND}")).unwrap();
+    let mut count = 0;
+    assert_eq!(((api.session_tool_count)(session, &mut count), count), (code::OK, 2));
+    let full = run_two(&api, session, 0, 150).map(|(result, wrench)| {
+        assert_eq!(result, code::OK);
+        felt(&wrench)
+    });
+    assert!(full[1] > 0.05 && full[0] > 1.3 * full[1], "{full:?}");
+    for tool in 0..2 {
+        let report = api.report_of(session, tool);
+        assert_eq!((report.tick, report.force[1].abs()), (150, full[tool as usize]));
+    }
+    assert_eq!(api.report_of(session, 0), api.report(session));
+    let mut report = made(api.report_init);
+    assert_eq!((api.session_report_of)(session, 2, &mut report), code::INDEX);
+    assert_eq!((api.error(), report.tick), ("no tool 2: there are 2, from 0".into(), 0));
+
+    let wrong = [(code::NOT_FINITE, 0), (code::NOT_FINITE, 1), (code::INDEX, 2), (code::INDEX, 8)];
+    for (n, (expected, tool)) in (1..).map(|n| 100 + 50 * n).zip(wrong) {
+        let bad = ToolState { tool, position: [0.0, f64::NAN, 0.0], ..api.state(n) };
+        assert_eq!(api.tick(session, &bad), (expected, Wrench::ZERO));
+        assert_eq!(run_two(&api, session, n, n + 1), [(code::FORCE_HELD, Wrench::ZERO); 2], "{tool}");
+        assert_eq!(api.report_of(session, 1).faults & 1, 1);
+        assert_eq!((api.session_clear_faults)(session), code::OK);
+        let first = run_two(&api, session, n + 1, n + 2);
+        assert!((0..2).all(|k| first[k].0 == code::OK && felt(&first[k].1) < 0.1 * full[k]), "{first:?}");
+        let again = run_two(&api, session, n + 2, n + 50);
+        assert!((0..2).all(|k| felt(&again[k].1) > 0.9 * full[k]), "{again:?}");
+    }
+}
+
+#[test]
+fn each_tool_has_its_own_time() {
+    let api = ready();
+    let session = api.try_create(&format!("{JET}{SECOND}")).unwrap();
+    let second = |n| ToolState { tool: 1, ..api.state(n) };
+    assert_eq!(api.tick(session, &api.state(50)).0, code::OK);
+    assert_eq!(api.tick(session, &second(20)).0, code::OK);
+    assert_eq!((api.report_of(session, 0).time_s, api.report_of(session, 1).time_s), (0.05, 0.02));
+    assert_eq!(api.tick(session, &second(10)), (code::TIME, Wrench::ZERO));
+}
+
+#[test]
+fn sessions_with_other_numbers_of_tools_follow_each_other_in_one_place() {
+    let api = ready();
+    let two = format!("{JET}{SECOND}");
+    for n in 0..10 {
+        let tools = 1 + n % 2;
+        let session = api.try_create(if tools == 2 { &two } else { JET }).unwrap();
+        for tool in 0..3 {
+            let expected = if tool < tools { code::OK } else { code::INDEX };
+            let state = ToolState { tool, ..api.state(1) };
+            assert_eq!(api.tick(session, &state).0, expected, "tool {tool} of {tools}");
+        }
+        assert_eq!((api.session_destroy)(session), code::OK);
+        assert_eq!(api.tick(session, &ToolState { tool: 1, ..api.state(1) }).0, code::HANDLE);
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@
 
 mod c_support;
 
-use c_support::{Api, DRIVE_OWNED, Session, SessionConfig, Variant, Wrench, code};
+use c_support::{Api, DRIVE_OWNED, SECOND, Session, SessionConfig, ToolState, Variant, Wrench, code};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -37,6 +37,23 @@ fn two_threads_in_one_tick_are_found_and_refused() {
     });
     assert!(busy.load(Ordering::Relaxed) >= 20);
     assert_eq!(api.report(session).tick, 100 + done.load(Ordering::Relaxed));
+}
+
+#[test]
+fn every_tool_is_ticked_by_a_thread_of_its_own() {
+    let api = Api::ready(Variant::Shipped);
+    let session = api.try_create(&format!("{}{SECOND}", c_support::JET)).unwrap();
+    thread::scope(|scope| {
+        for tool in 0..2 {
+            scope.spawn(move || {
+                for n in 0..20_000 {
+                    let state = ToolState { tool, ..api.state(n) };
+                    assert!(api.tick(session, &state).0 >= 0, "tool {tool}, tick {n}");
+                }
+            });
+        }
+    });
+    assert_eq!([0, 1].map(|tool| api.report_of(session, tool).tick), [20_000; 2]);
 }
 
 /// Servo, fluid and main of one session, each until its handle is stale; what each did.

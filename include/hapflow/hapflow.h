@@ -25,9 +25,9 @@
  *     [fluid]  computes, for milliseconds. One thread at a time a session.
  *     [any]    lock-free, by any number of threads at once.
  *
- * Functions of different classes may run at the same time on the same session. Two threads in functions of one class
- * and session ([any] apart) are an error of the host that is found: the second gets HAPFLOW_ERROR_BUSY, and zero
- * force. Different sessions know nothing of each other.
+ * Functions of different classes may run at the same time on the same session, and so may ticks of different tools.
+ * Two threads in functions of one class and session ([any] apart), or in ticks of one tool, are an error of the host
+ * that is found: the second gets HAPFLOW_ERROR_BUSY, and zero force. Different sessions know nothing of each other.
  *
  * Rules for all functions
  * -----------------------
@@ -74,6 +74,9 @@ extern "C" {
 /* Sessions at once in a process. */
 #define HAPFLOW_MAX_SESSIONS 64u
 
+/* Tools of a session. */
+#define HAPFLOW_MAX_TOOLS 8u
+
 /* ---------------------------------------------------------------------------------------------------- results */
 
 typedef int32_t hapflow_result;
@@ -91,7 +94,7 @@ enum {
     HAPFLOW_ERROR_VERSION = -3, /* host and library have no version in common */
     HAPFLOW_ERROR_NULL = -4, /* a pointer is null */
     HAPFLOW_ERROR_HANDLE = -5, /* the session is null, was destroyed, or never was */
-    HAPFLOW_ERROR_BUSY = -6, /* another thread is in a function of this class, for this session */
+    HAPFLOW_ERROR_BUSY = -6, /* another thread is in a function of this class, for this session (or tool) */
     HAPFLOW_ERROR_FULL = -7, /* HAPFLOW_MAX_SESSIONS are there: destroy one */
     HAPFLOW_ERROR_STRUCT = -8, /* kind or size of a struct is wrong: call its init function */
     HAPFLOW_ERROR_UNSUPPORTED = -9, /* a field, or a chained struct, that this library does not know */
@@ -196,7 +199,7 @@ HAPFLOW_API hapflow_result hapflow_device_get(uint32_t index, hapflow_device_inf
 
 /* ---------------------------------------------------------------------------------------------------- sessions */
 
-/* A session: a scene, its fluid and its tool. The host ticks the servo; it steps the fluid, or the session does. */
+/* A session: a scene, its fluid and its tools. The host ticks the servo; it steps the fluid, or the session does. */
 typedef struct hapflow_session {
     uint64_t id; /* 0: no session */
 } hapflow_session;
@@ -306,7 +309,7 @@ HAPFLOW_API hapflow_result hapflow_session_setting_count(hapflow_session session
 HAPFLOW_API hapflow_result hapflow_session_setting_info(hapflow_session session, uint32_t index,
                                                         hapflow_setting_info* info);
 
-/* No force from the next tick on, until the faults are cleared. [any] Errors: HANDLE. */
+/* No force on any tool from its next tick on, until the faults are cleared. [any] Errors: HANDLE. */
 HAPFLOW_API hapflow_result hapflow_session_emergency_stop(hapflow_session session);
 
 /* Takes back every fault; the force then comes up slowly, as at a start. [any] A cause that is still there raises its
@@ -318,11 +321,11 @@ HAPFLOW_API hapflow_result hapflow_session_clear_faults(hapflow_session session)
 /* Where the hand is, and when. In the frame of the device; that is the scene's, unless the scene has a mapping. */
 typedef struct hapflow_tool_state {
     uint32_t size; /* sizeof(hapflow_tool_state) */
-    uint32_t tool; /* 0: the only one yet */
+    uint32_t tool; /* which tool of the scene, from 0: below hapflow_session_tool_count */
     uint32_t buttons; /* bit n: button n is down */
     uint32_t reserved; /* 0 */
-    double time_s; /* time of this state since the session's start, s: 0 to 1e7, never less than before */
-    double dt_s; /* time since the last tick, s: not negative. 0 leaves the force; above 0.01 counts as 0.01 */
+    double time_s; /* time of this state since the session's start, s: 0 to 1e7, never less than the tool's last */
+    double dt_s; /* time since its last tick, s: not negative. 0 leaves the force; above 0.01 counts as 0.01 */
     double position[3]; /* m, each within 1000 */
     double orientation[4]; /* unit quaternion x, y, z, w, tool to device frame; its length is within 1e-3 of 1 */
     double velocity[3]; /* m/s, each within 1000 */
@@ -341,13 +344,18 @@ HAPFLOW_ASSERT_SIZE(hapflow_wrench, 48);
  * Errors: NULL, STRUCT. */
 HAPFLOW_API hapflow_result hapflow_tool_state_init(hapflow_tool_state* state, uint32_t size);
 
+/* How many tools the scene has: 1 to HAPFLOW_MAX_TOOLS. [any] It stays as it is. Each is ticked by itself, in one loop
+ * with the others or by a thread of its own. Errors: HANDLE, NULL. */
+HAPFLOW_API hapflow_result hapflow_session_tool_count(hapflow_session session, uint32_t* count);
+
 /* One servo tick: the hand is at `state`; `wrench` becomes what it feels, from the newest fluid frame. [servo]
  *
  * `wrench` is written whatever happens, and is zero on every failure. A state that is refused also latches
- * HAPFLOW_FAULT_INPUT: the force stays zero until hapflow_session_clear_faults, and then comes up slowly, so that one
- * bad sample never makes a jump. BUSY and HANDLE raise no fault.
+ * HAPFLOW_FAULT_INPUT: the force stays zero, on all tools of the session, until hapflow_session_clear_faults, and then
+ * comes up slowly, so that one bad sample never makes a jump. BUSY and HANDLE raise no fault.
  * Remarks: FORCE_HELD, NO_TIME, LATE.
- * Errors: HANDLE, BUSY, NULL, STRUCT, UNSUPPORTED, NOT_FINITE, VALUE (too far or too fast), ORIENTATION, TIME. */
+ * Errors: HANDLE, BUSY, NULL, STRUCT, UNSUPPORTED, INDEX (no such tool), NOT_FINITE, VALUE (too far or too fast),
+ * ORIENTATION, TIME. */
 HAPFLOW_API hapflow_result hapflow_servo_tick(hapflow_session session, const hapflow_tool_state* state,
                                               hapflow_wrench* wrench);
 
@@ -424,7 +432,7 @@ typedef struct hapflow_report {
     uint64_t particles; /* particles at its end */
     uint64_t substeps; /* its sub-steps */
     double max_speed; /* highest particle speed in it, m/s */
-    double load_force[3]; /* mean load of the fluid on the tool in it, N */
+    double load_force[3]; /* mean load of the fluid on the first tool in it, N */
     double load_torque[3]; /* N m */
     uint64_t degraded; /* frames so far that hit a limit of the solver */
 } hapflow_report;
@@ -433,8 +441,12 @@ HAPFLOW_ASSERT_SIZE(hapflow_report, 280);
 /* Empties `report`, for a struct of `size` bytes: sizeof *report. [any] Errors: NULL, STRUCT. */
 HAPFLOW_API hapflow_result hapflow_report_init(hapflow_report* report, uint32_t size);
 
-/* Reads the newest tick and frame. [main] Never waits for either. Errors: HANDLE, BUSY, NULL, STRUCT. */
+/* Reads the newest tick of the first tool, and the newest frame. [main] Never waits for either.
+ * Errors: HANDLE, BUSY, NULL, STRUCT. */
 HAPFLOW_API hapflow_result hapflow_session_report(hapflow_session session, hapflow_report* report);
+
+/* The same with the newest tick of tool `tool`, from 0. [main] Errors: HANDLE, BUSY, NULL, STRUCT, INDEX. */
+HAPFLOW_API hapflow_result hapflow_session_report_of(hapflow_session session, uint32_t tool, hapflow_report* report);
 
 #ifdef __cplusplus
 }

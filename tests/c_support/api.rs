@@ -165,6 +165,8 @@ functions! {
     session_emergency_stop: fn(Session) -> i32;
     session_clear_faults: fn(Session) -> i32;
     session_report: fn(Session, *mut Report) -> i32;
+    session_report_of: fn(Session, u32, *mut Report) -> i32;
+    session_tool_count: fn(Session, *mut u32) -> i32;
     tool_state_init: fn(*mut ToolState, u32) -> i32;
     report_init: fn(*mut Report, u32) -> i32;
     servo_tick: fn(Session, *const ToolState, *mut Wrench) -> i32;
@@ -246,6 +248,12 @@ impl Api {
     pub fn report(&self, session: Session) -> Report {
         let mut report = made(self.report_init);
         assert_eq!((self.session_report)(session, &mut report), code::OK);
+        report
+    }
+
+    pub fn report_of(&self, session: Session, tool: u32) -> Report {
+        let mut report = made(self.report_init);
+        assert_eq!((self.session_report_of)(session, tool, &mut report), code::OK);
         report
     }
 

@@ -63,3 +63,16 @@ speed = 1.5
 [gate]
 ramp_in = 0.02
 "#;
+
+/// To be put behind [`JET`]: a second jet, with a second tool in it.
+pub const SECOND: &str = r#"
+[[source]]
+name = "right"
+position = [0.06, 0.05, 0.0]
+diameter = 0.02
+speed = 1.0
+[[tool]]
+[[tool]]
+name = "second"
+position = [0.06, 0.0, 0.0]
+"#;

@@ -146,6 +146,7 @@ functions! {
     session::hapflow_session_emergency_stop(_);
     session::hapflow_session_clear_faults(_);
     tool_state::hapflow_tool_state_init(_, _);
+    session::hapflow_session_tool_count(_, _);
     servo::hapflow_servo_tick(_, _, _);
     fluid::hapflow_fluid_advance(_, _);
     fluid::hapflow_fluid_step(_, _);
@@ -153,6 +154,7 @@ functions! {
     session::hapflow_session_particles(_, _, _, _);
     report::hapflow_report_init(_, _);
     session::hapflow_session_report(_, _);
+    session::hapflow_session_report_of(_, _, _);
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 
 pub const HAPFLOW_ABI_VERSION: u32 = 1;
 pub const HAPFLOW_MAX_SESSIONS: u32 = 64;
+pub const HAPFLOW_MAX_TOOLS: u32 = 8;
 pub const HAPFLOW_KIND_SESSION_CONFIG: u32 = 1;
 pub type hapflow_result = i32;
 pub const HAPFLOW_OK: _bindgen_ty_1 = 0;
@@ -511,6 +512,10 @@ unsafe extern "C" {
         state: *mut hapflow_tool_state,
         size: u32,
     ) -> hapflow_result;
+    pub fn hapflow_session_tool_count(
+        session: hapflow_session,
+        count: *mut u32,
+    ) -> hapflow_result;
     pub fn hapflow_servo_tick(
         session: hapflow_session,
         state: *const hapflow_tool_state,
@@ -536,6 +541,11 @@ unsafe extern "C" {
     pub fn hapflow_report_init(report: *mut hapflow_report, size: u32) -> hapflow_result;
     pub fn hapflow_session_report(
         session: hapflow_session,
+        report: *mut hapflow_report,
+    ) -> hapflow_result;
+    pub fn hapflow_session_report_of(
+        session: hapflow_session,
+        tool: u32,
         report: *mut hapflow_report,
     ) -> hapflow_result;
 }

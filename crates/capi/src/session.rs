@@ -56,6 +56,16 @@ impl MainSide {
         self.panel.get_or_insert_with(|| Panel::new(&self.names))
     }
 
+    fn report(&mut self, tool: u32, report: Out<Report>) -> Result<Code, Failure> {
+        report.check_record()?;
+        let Some(servo) = self.session.report_of(tool as usize) else {
+            return Err(Failure::index("tool", tool, self.session.tool_count() as u32));
+        };
+        let raised = self.control.faults() | self.alarm.raised();
+        report.fill(&Report::of(&servo, &self.session.fluid_report(), raised))?;
+        Ok(Code::OK)
+    }
+
     /// The particles for a call with room for `capacity`: new ones, unless it follows one that told their count.
     fn positions(&mut self, capacity: usize) -> &[[f32; 3]] {
         if capacity == 0 || !self.particles.told {
@@ -77,9 +87,20 @@ impl Faultable for MainSide {
 pub struct AnySide {
     control: Control,
     alarm: Alarm,
+    tools: u32,
 }
 
 impl AnySide {
+    /// How many tools the session has.
+    pub fn tools(&self) -> u32 {
+        self.tools
+    }
+
+    /// A state was refused that is no tool's: every tool has to stop.
+    pub fn refuse_input(&self) {
+        self.alarm.raise(FaultSet::NON_FINITE_INPUT);
+    }
+
     fn clear_faults(&self) {
         self.alarm.0.clear(u32::MAX);
         self.control.clear_faults();
@@ -90,14 +111,14 @@ impl AnySide {
 fn open(scene: &Scene, threads: usize, fluid_drive: Drive) -> Result<Parts, Failure> {
     let options = SessionOptions { threads, fluid_drive, ..SessionOptions::hosted() };
     let mut session = Session::open(scene, options)?;
-    let (Some(servo), fluid) = (session.take_servo(), session.take_fluid()) else {
-        return Err(Failure { code: Code::ERROR_SCENE, text: "the session's servo is taken".into() });
-    };
     let (control, alarm) = (session.control(), Alarm(SharedFlags::new()));
+    let servos = (0..session.tool_count()).map_while(|tool| session.take_servo_of(tool));
+    let servos: Vec<_> = servos.map(|unit| ServoSide::new(unit, alarm.clone())).collect();
+    let fluid = session.take_fluid();
     Ok(Parts {
-        servo: ServoSide::new(servo, alarm.clone()),
+        any: AnySide { control: control.clone(), alarm: alarm.clone(), tools: servos.len() as u32 },
+        servos,
         fluid: FluidSide::new(fluid, alarm.clone(), scene.run.fluid_hz),
-        any: AnySide { control: control.clone(), alarm: alarm.clone() },
         main: MainSide {
             session,
             control,
@@ -255,10 +276,20 @@ pub extern "C" fn hapflow_session_particles(
 /// See the header.
 #[unsafe(no_mangle)]
 pub extern "C" fn hapflow_session_report(session: Handle, report: Out<Report>) -> Code {
-    with_main(session, |side| {
-        let (servo, fluid) = (side.session.report(), side.session.fluid_report());
-        let raised = side.control.faults() | side.alarm.raised();
-        report.fill(&Report::of(&servo, &fluid, raised))?;
+    with_main(session, |side| side.report(0, report))
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_report_of(session: Handle, tool: u32, report: Out<Report>) -> Code {
+    with_main(session, |side| side.report(tool, report))
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_tool_count(session: Handle, count: Out<u32>) -> Code {
+    with_any(session, |side| {
+        count.put(side.tools())?;
         Ok(Code::OK)
     })
 }

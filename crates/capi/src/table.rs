@@ -5,7 +5,7 @@ use crate::catalog::Catalog;
 use crate::code::Code;
 use crate::contract::as_in_header;
 use crate::fluid::FluidSide;
-use crate::generated::HAPFLOW_MAX_SESSIONS;
+use crate::generated::{HAPFLOW_MAX_SESSIONS, HAPFLOW_MAX_TOOLS};
 use crate::lane::{Alone, Claimed, Lane, Refused, Sharing};
 use crate::servo::ServoSide;
 use crate::session::{AnySide, MainSide};
@@ -14,6 +14,11 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Sessions at once: `HAPFLOW_MAX_SESSIONS`.
 pub const MAX_SESSIONS: usize = HAPFLOW_MAX_SESSIONS as usize;
+
+/// Tools of a session: `HAPFLOW_MAX_TOOLS`.
+const MAX_TOOLS: usize = HAPFLOW_MAX_TOOLS as usize;
+
+const _: () = assert!(MAX_TOOLS == hapflow_engine::MAX_TOOLS);
 
 /// `hapflow_session`: slot + 1 in the lower half, generation in the upper; 0 is null.
 #[repr(C)]
@@ -34,10 +39,11 @@ impl Handle {
     }
 }
 
-/// A session in its four parts, one a thread class.
+/// A session in its parts, one a thread class; of the servo, one a tool. Lanes of tools that there are not stay
+/// vacant.
 struct Slot {
     main: Lane<MainSide>,
-    servo: Lane<ServoSide>,
+    servos: [Lane<ServoSide>; MAX_TOOLS],
     fluid: Lane<FluidSide>,
     any: Lane<AnySide>,
 }
@@ -45,7 +51,7 @@ struct Slot {
 /// What [`Library::place`] places and [`Library::remove`] gives back.
 pub struct Parts {
     pub main: MainSide,
-    pub servo: ServoSide,
+    pub servos: Vec<ServoSide>,
     pub fluid: FluidSide,
     pub any: AnySide,
 }
@@ -104,11 +110,12 @@ impl Library {
         let (slot, generation) = (self.slot(handle)?, handle.generation());
         // The one who closes main first is the one who closes all.
         let mut main = slot.main.close(generation)?;
-        let mut servo = slot.servo.close(generation)?;
+        let mut servos: Vec<_> = slot.servos.iter().filter_map(|lane| lane.close(generation).ok()).collect();
         let mut fluid = slot.fluid.close(generation)?;
         let mut any = slot.any.close(generation)?;
-        match (main.take(), servo.take(), fluid.take(), any.take()) {
-            (Some(main), Some(servo), Some(fluid), Some(any)) => Ok(Parts { main, servo, fluid, any }),
+        let servos = servos.iter_mut().filter_map(Claimed::take).collect();
+        match (main.take(), fluid.take(), any.take()) {
+            (Some(main), Some(fluid), Some(any)) => Ok(Parts { main, servos, fluid, any }),
             _ => Err(Code::ERROR_HANDLE),
         }
     }
@@ -117,8 +124,13 @@ impl Library {
         Ok(self.slot(handle)?.main.enter(handle.generation())?)
     }
 
-    pub fn servo(&self, handle: Handle) -> Result<Alone<'_, ServoSide>, Code> {
-        Ok(self.slot(handle)?.servo.enter(handle.generation())?)
+    pub fn servo(&self, handle: Handle, tool: u32) -> Result<Alone<'_, ServoSide>, Code> {
+        let lane = self.slot(handle)?.servos.get(tool as usize);
+        match lane.map_or(Err(Refused::Stale), |lane| lane.enter(handle.generation())) {
+            // Another session, or another number of tools?
+            Err(Refused::Stale) if tool >= self.any(handle)?.tools() => Err(Code::ERROR_INDEX),
+            entered => Ok(entered?),
+        }
     }
 
     pub fn fluid(&self, handle: Handle) -> Result<Alone<'_, FluidSide>, Code> {
@@ -137,14 +149,15 @@ impl Library {
 
 impl Slot {
     const fn vacant() -> Self {
-        Self { main: Lane::vacant(), servo: Lane::vacant(), fluid: Lane::vacant(), any: Lane::vacant() }
+        let servos = [const { Lane::vacant() }; MAX_TOOLS];
+        Self { main: Lane::vacant(), servos, fluid: Lane::vacant(), any: Lane::vacant() }
     }
 
     /// Main first: it decides between two who want the slot.
     fn claim(&self) -> Option<ClaimedSlot<'_>> {
         let main = self.main.claim()?;
         Some(ClaimedSlot {
-            servo: self.servo.claim()?,
+            servos: self.servos.iter().map(Lane::claim).collect::<Option<_>>()?,
             fluid: self.fluid.claim()?,
             any: self.any.claim()?,
             main,
@@ -154,7 +167,7 @@ impl Slot {
 
 struct ClaimedSlot<'a> {
     main: Claimed<'a, MainSide>,
-    servo: Claimed<'a, ServoSide>,
+    servos: Vec<Claimed<'a, ServoSide>>,
     fluid: Claimed<'a, FluidSide>,
     any: Claimed<'a, AnySide>,
 }
@@ -165,7 +178,7 @@ impl ClaimedSlot<'_> {
         let generation = self.main.generation().checked_add(1).unwrap_or(1);
         self.any.open(generation, parts.any);
         self.fluid.open(generation, parts.fluid);
-        self.servo.open(generation, parts.servo);
+        self.servos.into_iter().zip(parts.servos).for_each(|(lane, tool)| lane.open(generation, tool));
         self.main.open(generation, parts.main);
         generation
     }

@@ -19,7 +19,7 @@ pub const LATEST_S: f64 = 1e7;
 #[derive(Clone, Copy)]
 pub struct ToolStateIn {
     size: u32,
-    tool: u32,
+    pub tool: u32,
     buttons: u32,
     reserved: u32,
     pub time_s: f64,
@@ -66,9 +66,9 @@ impl ToolStateIn {
         angular_velocity: [0.0; 3],
     };
 
-    /// The state as the engine takes it, after `last_s`.
+    /// The state as the engine takes it, after `last_s`. Whether there is such a tool is not asked here.
     pub fn checked(&self, last_s: f64) -> Result<ToolState, Code> {
-        if self.tool != 0 || self.reserved != 0 {
+        if self.reserved != 0 {
             return Err(Code::ERROR_UNSUPPORTED);
         }
         self.check_time(last_s)?;
