@@ -43,8 +43,10 @@ fn what_is_exported_is_what_the_header_declares_and_nothing_else() {
 fn every_function_states_its_thread_class() {
     for prototype in prototypes() {
         let (name, comment) = (prototype.name, prototype.comment);
-        let classes =
-            ["[main", "[servo]", "[fluid]", "[any]"].iter().filter(|c| comment.contains(**c)).count();
+        let classes = ["[main", "[servo]", "[fluid]", "[obstacle]", "[any]"]
+            .iter()
+            .filter(|c| comment.contains(**c))
+            .count();
         assert_eq!(classes, 1, "{name}: {comment}");
     }
 }

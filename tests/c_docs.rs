@@ -191,6 +191,10 @@ const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
+        what: "an obstacle that there is not",
+        make: |api, session| ((api.obstacle_move)(session, 0, &[0.0; 3], &[0.0, 0.0, 0.0, 1.0]), None),
+    },
+    Mistake {
         what: "a setting outside its range",
         make: |api, session| set_text(api, session, c"fluid.viscosity", c"-1"),
     },

@@ -69,8 +69,15 @@ const VALUES: [&[u8]; 12] = [
     b"\0",
 ];
 
-const SCENES: [&str; 6] =
-    [JET, "", "[fluid]\nspacing = -1\n", "[[source]]\nname = 3\n", "\u{0}\u{1}", "[run]\nfluid_hz = 1e999\n"];
+const SCENES: [&str; 7] = [
+    JET,
+    "[run]\nbackend = \"analytic-jet\"\n[[obstacle]]\nname = \"a\"\n",
+    "",
+    "[fluid]\nspacing = -1\n",
+    "[[source]]\nname = 3\n",
+    "\u{0}\u{1}",
+    "[run]\nfluid_hz = 1e999\n",
+];
 
 /// One run of random calls.
 struct Fuzz {
@@ -274,7 +281,7 @@ impl Fuzz {
 
     fn call(&mut self) -> i32 {
         let (api, session) = (self.api, self.session());
-        match self.random.below(26) {
+        match self.random.below(32) {
             0 => (api.negotiate)(self.random.below(3) as u32, self.random.below(3) as u32, self.place()),
             1 => self.create(),
             2 if self.random.below(6) == 0 => self.destroy(),
@@ -306,6 +313,13 @@ impl Fuzz {
             19 => (api.fluid_step)(session, self.number()),
             20 => (api.session_setting_count)(session, self.place()),
             21 => self.buffered(12, |to, n, length| (api.session_particles)(session, to.cast(), n, length)),
+            22 => {
+                let (index, x, w) = (self.random.below(2) as u32, self.number(), self.number());
+                let orientation = if self.random.below(2) == 0 { [0.0, 0.0, 0.0, 1.0] } else { [w; 4] };
+                (api.obstacle_move)(session, index, &[x, 0.0, 0.0], &orientation)
+            }
+            23 if self.random.below(2) == 0 => (api.obstacle_count)(session, self.place()),
+            23 => (api.obstacle_publish)(session),
             _ => self.tick(),
         }
     }

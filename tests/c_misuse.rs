@@ -5,7 +5,7 @@
 mod c_support;
 
 use c_support::{
-    Api, JET, Random, Report, SECOND, Session, SessionConfig, ToolState, Variant, Wrench, code, made,
+    Api, JET, PLATE, Random, Report, SECOND, Session, SessionConfig, ToolState, Variant, Wrench, code, made,
 };
 use hapflow::engine::parse;
 use hapflow::engine::run::{RunOptions, virtual_clock};
@@ -64,6 +64,9 @@ fn null_pointers_are_refused_and_outputs_stay() {
     assert_eq!((api.session_report)(session, null_mut()), code::NULL);
     assert_eq!((api.session_report_of)(session, 0, null_mut()), code::NULL);
     assert_eq!((api.session_tool_count)(session, null_mut()), code::NULL);
+    assert_eq!((api.obstacle_count)(session, null_mut()), code::NULL);
+    assert_eq!((api.obstacle_move)(session, 0, null(), &[0.0; 4]), code::NULL);
+    assert_eq!((api.obstacle_move)(session, 0, &[0.0; 3], null()), code::NULL);
     assert_eq!((api.fluid_particles)(session, null_mut(), 0, null_mut()), code::NULL);
     assert_eq!((api.session_particles)(session, null_mut(), 0, null_mut()), code::NULL);
     assert_eq!((api.session_particles)(session, null_mut(), 1, &mut 0), code::NULL);
@@ -96,6 +99,9 @@ fn stale_and_doubled_handles_are_codes() {
         assert_eq!((api.session_report)(handle, null_mut()), code::HANDLE);
         assert_eq!((api.session_report_of)(handle, 1, null_mut()), code::HANDLE);
         assert_eq!((api.session_tool_count)(handle, null_mut()), code::HANDLE);
+        assert_eq!((api.obstacle_count)(handle, null_mut()), code::HANDLE);
+        assert_eq!((api.obstacle_move)(handle, 0, null(), null()), code::HANDLE);
+        assert_eq!((api.obstacle_publish)(handle), code::HANDLE);
         assert_eq!(api.tick(handle, &ToolState { tool: 1, ..api.state(0) }), (code::HANDLE, Wrench::ZERO));
     }
     assert_eq!(api.run(new, 0, 5).len(), 5);
@@ -224,6 +230,60 @@ fn sessions_with_other_numbers_of_tools_follow_each_other_in_one_place() {
         assert_eq!((api.session_destroy)(session), code::OK);
         assert_eq!(api.tick(session, &ToolState { tool: 1, ..api.state(1) }).0, code::HANDLE);
     }
+}
+
+const UPRIGHT: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
+
+#[test]
+fn a_plate_shields_the_tool_until_the_host_takes_it_away() {
+    let api = ready();
+    let cpu = JET.replace("backend = \"analytic-jet\"", "") + "\n[fluid]\nspacing = 0.006\n" + PLATE;
+    let session = api.try_create(&cpu).unwrap();
+    let mut count = 0;
+    assert_eq!(((api.obstacle_count)(session, &mut count), count), (code::OK, 1));
+    let mean = |wrenches: &[Wrench]| wrenches.iter().map(felt).sum::<f64>() / wrenches.len() as f64;
+    let under = mean(&api.run(session, 0, 400)[200..]);
+    // Without publishing it stays.
+    assert_eq!((api.obstacle_move)(session, 0, &[0.06, 0.028, 0.0], &UPRIGHT), code::OK);
+    let still = mean(&api.run(session, 400, 500));
+    for n in 50..70_u32 {
+        let place = [0.003 * f64::from(n - 49), 0.028, 0.0];
+        assert_eq!((api.obstacle_move)(session, 0, &place, &UPRIGHT), code::OK);
+        assert_eq!((api.obstacle_publish)(session), code::OK);
+        api.run(session, u64::from(n) * 10, u64::from(n) * 10 + 10);
+    }
+    let free = mean(&api.run(session, 700, 1000)[150..]);
+    assert!(under < 0.02 && still < 0.02 && free > 0.1, "under the plate {under} {still} N, free {free} N");
+}
+
+#[test]
+fn a_place_that_no_obstacle_can_have_is_refused() {
+    let api = ready();
+    let none = api.jet();
+    let mut count = 9;
+    assert_eq!(((api.obstacle_count)(none, &mut count), count), (code::OK, 0));
+    assert_eq!((api.obstacle_move)(none, 0, &[0.0; 3], &UPRIGHT), code::INDEX);
+    assert_eq!((api.obstacle_publish)(none), code::OK);
+    let session = api.try_create(&format!("{JET}{PLATE}")).unwrap();
+    for (expected, index, position, orientation) in [
+        (code::OK, 0, [0.0, 0.05, 0.0], [0.0, 0.6, 0.0, 0.8]),
+        (code::INDEX, 1, [0.0; 3], UPRIGHT),
+        (code::INDEX, u32::MAX, [f64::NAN; 3], UPRIGHT),
+        (code::NOT_FINITE, 0, [0.0, f64::NAN, 0.0], UPRIGHT),
+        (code::NOT_FINITE, 0, [0.0, 0.0, f64::INFINITY], UPRIGHT),
+        (code::NOT_FINITE, 0, [0.0; 3], [0.0, f64::NAN, 0.0, 1.0]),
+        (code::VALUE, 0, [1001.0, 0.0, 0.0], UPRIGHT),
+        (code::ORIENTATION, 0, [0.0; 3], [0.0; 4]),
+        (code::ORIENTATION, 0, [0.0; 3], [0.0, 0.0, 0.0, 1.002]),
+        (code::ORIENTATION, 0, [0.0; 3], [1e300; 4]),
+    ] {
+        let result = (api.obstacle_move)(session, index, &position, &orientation);
+        assert_eq!(result, expected, "{index} {position:?} {orientation:?}");
+    }
+    // None of it is a fault.
+    assert_eq!((api.obstacle_publish)(session), code::OK);
+    api.run(session, 0, 50);
+    assert_eq!(api.report(session).faults & 0x7, 0);
 }
 
 #[test]

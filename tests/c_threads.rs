@@ -4,7 +4,7 @@
 
 mod c_support;
 
-use c_support::{Api, DRIVE_OWNED, SECOND, Session, SessionConfig, ToolState, Variant, Wrench, code};
+use c_support::{Api, DRIVE_OWNED, PLATE, SECOND, Session, SessionConfig, ToolState, Variant, Wrench, code};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -54,6 +54,37 @@ fn every_tool_is_ticked_by_a_thread_of_its_own() {
         }
     });
     assert_eq!([0, 1].map(|tool| api.report_of(session, tool).tick), [20_000; 2]);
+}
+
+#[test]
+fn obstacles_are_moved_by_one_thread_beside_all_others() {
+    let api = Api::ready(Variant::Shipped);
+    let session = api.try_create(&format!("{}{PLATE}", c_support::JET)).unwrap();
+    let move_it = |n: u64| {
+        let place = [1e-6 * (n % 1000) as f64, 0.028, 0.0];
+        match (api.obstacle_move)(session, 0, &place, &[0.0, 0.0, 0.0, 1.0]) {
+            code::OK => (api.obstacle_publish)(session),
+            refused => refused,
+        }
+    };
+    thread::scope(|scope| {
+        scope.spawn(|| (0..20_000).for_each(|n| assert_eq!(move_it(n), code::OK)));
+        api.run(session, 0, 1000);
+    });
+    // Two at once are found.
+    let (busy, patience) = (AtomicBool::new(false), Instant::now() + Duration::from_secs(20));
+    thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                while !busy.load(Ordering::Relaxed) && Instant::now() < patience {
+                    busy.fetch_or((0..1000).any(|n| move_it(n) == code::BUSY), Ordering::Relaxed);
+                }
+            });
+        }
+    });
+    assert!(busy.load(Ordering::Relaxed));
+    assert_eq!((api.session_destroy)(session), code::OK);
+    assert_eq!(move_it(0), code::HANDLE);
 }
 
 /// Servo, fluid and main of one session, each until its handle is stale; what each did.
@@ -259,6 +290,16 @@ fn a_panic_of_the_fluid_ends_it_and_the_force() {
     assert_eq!((api.fluid_advance)(session, 0.2), code::FAULTED);
     assert_eq!((api.fluid_step)(session, 0.2), code::FAULTED);
     assert_eq!((api.session_destroy)(session), code::OK);
+}
+
+#[test]
+fn a_panic_among_the_obstacles_ends_the_force() {
+    let (api, session, panic_next) = about_to_panic();
+    panic_next();
+    assert_eq!((api.obstacle_publish)(session), code::PANIC);
+    assert!(faulted(&api, session, PANIC));
+    assert_eq!(api.tick(session, &api.state(100)), (code::FORCE_HELD, Wrench::ZERO));
+    assert_eq!((api.obstacle_publish)(session), code::OK);
 }
 
 #[test]

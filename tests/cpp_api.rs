@@ -104,7 +104,8 @@ fn every_function_of_a_session_states_its_thread_class() {
         if let Some(text) = line.strip_prefix("///") {
             comment += text;
         } else if !comment.is_empty() && line.contains('{') {
-            let classes = ["[main", "[servo]", "[fluid]", "[any]"].iter().filter(|c| comment.contains(**c));
+            let classes = ["[main", "[servo]", "[fluid]", "[obstacle]", "[any]"];
+            let classes = classes.iter().filter(|c| comment.contains(**c));
             assert_eq!(classes.count(), 1, "{line}\n{comment}");
             functions += 1;
             comment.clear();

@@ -20,10 +20,11 @@
  *
  * Every function below says how it may be called, with one of these classes:
  *
- *     [main]   may block and allocate. One thread at a time a session; it need not always be the same.
- *     [servo]  wait-free: no lock, no allocation, no system call, no log. One thread at a time a tool.
- *     [fluid]  computes, for milliseconds. One thread at a time a session.
- *     [any]    lock-free, by any number of threads at once.
+ *     [main]      may block and allocate. One thread at a time a session; it need not always be the same.
+ *     [servo]     wait-free: no lock, no allocation, no system call, no log. One thread at a time a tool.
+ *     [fluid]     computes, for milliseconds. One thread at a time a session.
+ *     [obstacle]  wait-free, as [servo]. One thread at a time a session.
+ *     [any]       lock-free, by any number of threads at once.
  *
  * Functions of different classes may run at the same time on the same session, and so may ticks of different tools.
  * Two threads in functions of one class and session ([any] apart), or in ticks of one tool, are an error of the host
@@ -393,6 +394,27 @@ HAPFLOW_API hapflow_result hapflow_fluid_particles(hapflow_session session, floa
  * Errors: HANDLE, BUSY, NULL. */
 HAPFLOW_API hapflow_result hapflow_session_particles(hapflow_session session, float* positions, size_t capacity,
                                                      size_t* count);
+
+/* ---------------------------------------------------------------------------------------------------- obstacles */
+
+/* Obstacles are in the order of the scene file, and in its frame. The host may move them while the fluid runs, whoever
+ * steps that; one that it never moves stays where the setting obstacle.NAME.position has it. */
+
+/* How many obstacles the scene has. [any] It stays as it is. Errors: HANDLE, NULL. */
+HAPFLOW_API hapflow_result hapflow_obstacle_count(hapflow_session session, uint32_t* count);
+
+/* Where obstacle `index`, from 0, is to be: `position` (m, each within 1000) and `orientation` (unit quaternion x, y, z,
+ * w, its length within 1e-3 of 1). [obstacle] Nothing happens before hapflow_obstacle_publish. From then on its setting
+ * is without effect.
+ * Errors: HANDLE, BUSY, NULL, INDEX, NOT_FINITE, VALUE (too far), ORIENTATION. */
+HAPFLOW_API hapflow_result hapflow_obstacle_move(hapflow_session session, uint32_t index, const double position[3],
+                                                 const double orientation[4]);
+
+/* Hands the places of all obstacles to the fluid, together. [obstacle] Each goes evenly to its place within the next
+ * fluid frame, and pushes the fluid as fast as it goes: so move it a little, once a frame. Of several calls within a
+ * frame the newest counts.
+ * Errors: HANDLE, BUSY. */
+HAPFLOW_API hapflow_result hapflow_obstacle_publish(hapflow_session session);
 
 /* ---------------------------------------------------------------------------------------------------- report */
 

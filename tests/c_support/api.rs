@@ -172,6 +172,9 @@ functions! {
     servo_tick: fn(Session, *const ToolState, *mut Wrench) -> i32;
     fluid_advance: fn(Session, f64) -> i32;
     fluid_step: fn(Session, f64) -> i32;
+    obstacle_count: fn(Session, *mut u32) -> i32;
+    obstacle_move: fn(Session, u32, *const [f64; 3], *const [f64; 4]) -> i32;
+    obstacle_publish: fn(Session) -> i32;
     fluid_particles: fn(Session, *mut f32, usize, *mut usize) -> i32;
     session_particles: fn(Session, *mut f32, usize, *mut usize) -> i32;
 }

@@ -76,3 +76,13 @@ speed = 1.0
 name = "second"
 position = [0.06, 0.0, 0.0]
 "#;
+
+/// To be put behind [`JET`]: a plate over the tool, in the jet.
+pub const PLATE: &str = r#"
+[[obstacle]]
+name = "plate"
+shape = "disc"
+radius = 0.04
+thickness = 0.008
+position = [0.0, 0.028, 0.0]
+"#;

@@ -8,7 +8,9 @@ use crate::caller::{Buffer, In, Out, Text};
 use crate::code::Code;
 use crate::generated as c;
 use crate::table::Handle;
-use crate::{build_info, catalog, config, fluid, library, report, servo, session, setting_info, tool_state};
+use crate::{
+    build_info, catalog, config, fluid, library, obstacle, report, servo, session, setting_info, tool_state,
+};
 use std::ffi::{c_char, c_void};
 
 /// A type, and what the header calls it.
@@ -44,7 +46,7 @@ same_in_c! {
 
 targets! {
     u32 = u32, usize = usize, f64 = f64, c_char = c_char,
-    [f64; 3] = f64, [f32; 3] = f32,
+    [f64; 3] = f64, [f64; 4] = f64, [f32; 3] = f32,
     Handle = c::hapflow_session,
     config::SessionConfig = c::hapflow_session_config,
     tool_state::ToolStateIn = c::hapflow_tool_state,
@@ -152,6 +154,9 @@ functions! {
     fluid::hapflow_fluid_step(_, _);
     fluid::hapflow_fluid_particles(_, _, _, _);
     session::hapflow_session_particles(_, _, _, _);
+    obstacle::hapflow_obstacle_count(_, _);
+    obstacle::hapflow_obstacle_move(_, _, _, _);
+    obstacle::hapflow_obstacle_publish(_);
     report::hapflow_report_init(_, _);
     session::hapflow_session_report(_, _);
     session::hapflow_session_report_of(_, _, _);

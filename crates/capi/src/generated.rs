@@ -538,6 +538,17 @@ unsafe extern "C" {
         capacity: usize,
         count: *mut usize,
     ) -> hapflow_result;
+    pub fn hapflow_obstacle_count(
+        session: hapflow_session,
+        count: *mut u32,
+    ) -> hapflow_result;
+    pub fn hapflow_obstacle_move(
+        session: hapflow_session,
+        index: u32,
+        position: *const f64,
+        orientation: *const f64,
+    ) -> hapflow_result;
+    pub fn hapflow_obstacle_publish(session: hapflow_session) -> hapflow_result;
     pub fn hapflow_report_init(report: *mut hapflow_report, size: u32) -> hapflow_result;
     pub fn hapflow_session_report(
         session: hapflow_session,

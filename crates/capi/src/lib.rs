@@ -5,7 +5,7 @@
 //! | file | what |
 //! |---|---|
 //! | `library` | versions, texts of results, the last error |
-//! | `session`, `servo`, `fluid` | the functions, by thread class |
+//! | `session`, `servo`, `fluid`, `obstacle` | the functions, by thread class |
 //! | `config`, `tool_state`, `wrench`, `report`, `setting_info` | the header's structs |
 //! | `build_info`, `catalog` | what the build has; shipped scenes and devices |
 //! | `code` | results |
@@ -29,6 +29,7 @@ mod generated;
 mod hooks;
 mod lane;
 mod library;
+mod obstacle;
 mod report;
 mod servo;
 mod session;

@@ -7,6 +7,7 @@ use crate::fence::{fence, fence_main};
 use crate::fluid::FluidSide;
 use crate::hooks;
 use crate::lane::Faultable;
+use crate::obstacle::ObstacleSide;
 use crate::report::Report;
 use crate::servo::ServoSide;
 use crate::setting_info::{Names, Panel, SettingInfo, plain};
@@ -88,12 +89,18 @@ pub struct AnySide {
     control: Control,
     alarm: Alarm,
     tools: u32,
+    obstacles: u32,
 }
 
 impl AnySide {
     /// How many tools the session has.
     pub fn tools(&self) -> u32 {
         self.tools
+    }
+
+    /// How many obstacles it has.
+    pub fn obstacles(&self) -> u32 {
+        self.obstacles
     }
 
     /// A state was refused that is no tool's: every tool has to stop.
@@ -114,11 +121,17 @@ fn open(scene: &Scene, threads: usize, fluid_drive: Drive) -> Result<Parts, Fail
     let (control, alarm) = (session.control(), Alarm(SharedFlags::new()));
     let servos = (0..session.tool_count()).map_while(|tool| session.take_servo_of(tool));
     let servos: Vec<_> = servos.map(|unit| ServoSide::new(unit, alarm.clone())).collect();
-    let fluid = session.take_fluid();
+    let fluid = FluidSide::new(session.take_fluid(), alarm.clone(), scene.run.fluid_hz);
+    let Some(mover) = session.take_obstacles() else {
+        return Err(Failure { code: Code::ERROR_SCENE, text: "the session's obstacles are taken".into() });
+    };
+    let obstacle = ObstacleSide::new(mover, alarm.clone());
+    let (tools, obstacles) = (servos.len() as u32, obstacle.count());
     Ok(Parts {
-        any: AnySide { control: control.clone(), alarm: alarm.clone(), tools: servos.len() as u32 },
         servos,
-        fluid: FluidSide::new(fluid, alarm.clone(), scene.run.fluid_hz),
+        fluid,
+        obstacle,
+        any: AnySide { control: control.clone(), alarm: alarm.clone(), tools, obstacles },
         main: MainSide {
             session,
             control,
@@ -138,7 +151,7 @@ fn with_main(session: Handle, body: impl FnOnce(&mut MainSide) -> Result<Code, F
     })
 }
 
-fn with_any(session: Handle, body: impl FnOnce(&AnySide) -> Outcome) -> Code {
+pub fn with_any(session: Handle, body: impl FnOnce(&AnySide) -> Outcome) -> Code {
     fence(|| body(&*LIBRARY.any(session)?))
 }
 

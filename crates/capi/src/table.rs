@@ -7,6 +7,7 @@ use crate::contract::as_in_header;
 use crate::fluid::FluidSide;
 use crate::generated::{HAPFLOW_MAX_SESSIONS, HAPFLOW_MAX_TOOLS};
 use crate::lane::{Alone, Claimed, Lane, Refused, Sharing};
+use crate::obstacle::ObstacleSide;
 use crate::servo::ServoSide;
 use crate::session::{AnySide, MainSide};
 use std::sync::OnceLock;
@@ -45,6 +46,7 @@ struct Slot {
     main: Lane<MainSide>,
     servos: [Lane<ServoSide>; MAX_TOOLS],
     fluid: Lane<FluidSide>,
+    obstacle: Lane<ObstacleSide>,
     any: Lane<AnySide>,
 }
 
@@ -53,6 +55,7 @@ pub struct Parts {
     pub main: MainSide,
     pub servos: Vec<ServoSide>,
     pub fluid: FluidSide,
+    pub obstacle: ObstacleSide,
     pub any: AnySide,
 }
 
@@ -112,10 +115,13 @@ impl Library {
         let mut main = slot.main.close(generation)?;
         let mut servos: Vec<_> = slot.servos.iter().filter_map(|lane| lane.close(generation).ok()).collect();
         let mut fluid = slot.fluid.close(generation)?;
+        let mut obstacle = slot.obstacle.close(generation)?;
         let mut any = slot.any.close(generation)?;
         let servos = servos.iter_mut().filter_map(Claimed::take).collect();
-        match (main.take(), fluid.take(), any.take()) {
-            (Some(main), Some(fluid), Some(any)) => Ok(Parts { main, servos, fluid, any }),
+        match (main.take(), fluid.take(), obstacle.take(), any.take()) {
+            (Some(main), Some(fluid), Some(obstacle), Some(any)) => {
+                Ok(Parts { main, servos, fluid, obstacle, any })
+            }
             _ => Err(Code::ERROR_HANDLE),
         }
     }
@@ -137,6 +143,10 @@ impl Library {
         Ok(self.slot(handle)?.fluid.enter(handle.generation())?)
     }
 
+    pub fn obstacles(&self, handle: Handle) -> Result<Alone<'_, ObstacleSide>, Code> {
+        Ok(self.slot(handle)?.obstacle.enter(handle.generation())?)
+    }
+
     pub fn any(&self, handle: Handle) -> Result<Sharing<'_, AnySide>, Code> {
         Ok(self.slot(handle)?.any.share(handle.generation())?)
     }
@@ -150,7 +160,13 @@ impl Library {
 impl Slot {
     const fn vacant() -> Self {
         let servos = [const { Lane::vacant() }; MAX_TOOLS];
-        Self { main: Lane::vacant(), servos, fluid: Lane::vacant(), any: Lane::vacant() }
+        Self {
+            main: Lane::vacant(),
+            servos,
+            fluid: Lane::vacant(),
+            obstacle: Lane::vacant(),
+            any: Lane::vacant(),
+        }
     }
 
     /// Main first: it decides between two who want the slot.
@@ -159,6 +175,7 @@ impl Slot {
         Some(ClaimedSlot {
             servos: self.servos.iter().map(Lane::claim).collect::<Option<_>>()?,
             fluid: self.fluid.claim()?,
+            obstacle: self.obstacle.claim()?,
             any: self.any.claim()?,
             main,
         })
@@ -169,6 +186,7 @@ struct ClaimedSlot<'a> {
     main: Claimed<'a, MainSide>,
     servos: Vec<Claimed<'a, ServoSide>>,
     fluid: Claimed<'a, FluidSide>,
+    obstacle: Claimed<'a, ObstacleSide>,
     any: Claimed<'a, AnySide>,
 }
 
@@ -177,6 +195,7 @@ impl ClaimedSlot<'_> {
     fn open(self, parts: Parts) -> u32 {
         let generation = self.main.generation().checked_add(1).unwrap_or(1);
         self.any.open(generation, parts.any);
+        self.obstacle.open(generation, parts.obstacle);
         self.fluid.open(generation, parts.fluid);
         self.servos.into_iter().zip(parts.servos).for_each(|(lane, tool)| lane.open(generation, tool));
         self.main.open(generation, parts.main);

@@ -8,7 +8,7 @@ use glam::{DQuat, DVec3};
 use hapflow_haptics::ToolState;
 
 /// Farthest that a tool may be, m, and fastest, m/s: beyond any hand, and within what f32 steps soundly.
-const FARTHEST: f64 = 1000.0;
+pub const FARTHEST: f64 = 1000.0;
 /// Fastest that it may turn, rad/s.
 const FASTEST_TURN: f64 = 1e5;
 /// Latest time, s: a third of a year, in which f64 still tells nanoseconds apart.
@@ -89,12 +89,8 @@ impl ToolStateIn {
         {
             return Err(Code::ERROR_VALUE);
         }
-        // Written so that an overflow of the length is refused, too.
-        if (state.orientation.length() - 1.0).abs() <= 1e-3 {
-            Ok(state)
-        } else {
-            Err(Code::ERROR_ORIENTATION)
-        }
+        check_orientation(state.orientation)?;
+        Ok(state)
     }
 
     fn check_time(&self, last_s: f64) -> Result<(), Code> {
@@ -104,6 +100,12 @@ impl ToolStateIn {
         let in_order = self.time_s >= last_s && self.time_s <= LATEST_S && self.dt_s >= 0.0;
         if in_order { Ok(()) } else { Err(Code::ERROR_TIME) }
     }
+}
+
+/// Refuses what is no unit quaternion.
+pub fn check_orientation(orientation: DQuat) -> Result<(), Code> {
+    // Written so that an overflow of the length is refused, too.
+    if (orientation.length() - 1.0).abs() <= 1e-3 { Ok(()) } else { Err(Code::ERROR_ORIENTATION) }
 }
 
 /// See the header.
