@@ -220,7 +220,7 @@ static void a_tick_carries_every_field() {
         CHECK((session.report().faults & HAPFLOW_FAULT_INPUT) != 0);
     };
     refused(HAPFLOW_ERROR_TIME, [&](ToolState& s) { s.time_s = 0.2; });
-    refused(HAPFLOW_ERROR_UNSUPPORTED, [&](ToolState& s) { s.tool = 1; });
+    refused(HAPFLOW_ERROR_INDEX, [&](ToolState& s) { s.tool = 1; });
     refused(HAPFLOW_ERROR_ORIENTATION, [&](ToolState& s) { s.orientation = {0, 0, 0, 2}; });
     refused(HAPFLOW_ERROR_VALUE, [&](ToolState& s) { s.position[2] = 2000; });
     refused(HAPFLOW_ERROR_NOT_FINITE, [&](ToolState& s) { s.velocity[1] = nan; });
