@@ -74,6 +74,7 @@ int main(void) {
     if (hapflow_negotiate(1, 1, &version) || hapflow_session_config_init(&config, sizeof config)) return 2;
     config.scene = "tap";
     config.settings = "run.backend = analytic-jet";
+    const double place[3] = {0.1, 0, 0}, upright[4] = {0, 0, 0, 1};
     if (hapflow_session_create(&config, &session) || hapflow_tool_state_init(&state, sizeof state)) return 3;
     long before_all = calls;
     if (before_all < 10) return 4; /* not counting */
@@ -85,6 +86,8 @@ int main(void) {
         hapflow_result result = hapflow_servo_tick(session, &state, &wrench);
         if (n == 2000 && result != HAPFLOW_ERROR_NOT_FINITE) return 6;
         if (n == 2500) hapflow_session_emergency_stop(session);
+        if (hapflow_obstacle_move(session, 0, place, upright) != HAPFLOW_ERROR_INDEX) return 8;
+        if (hapflow_obstacle_publish(session)) return 9;
         state.velocity[0] = 0;
         if (calls != before) return 1;
     }

@@ -2,6 +2,7 @@
 #include <hapflow/hapflow.hpp>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -37,6 +38,8 @@ static_assert(std::is_nothrow_destructible_v<Session>);
 static_assert(std::is_nothrow_copy_constructible_v<Error> && std::is_base_of_v<std::runtime_error, Error>);
 static_assert(noexcept(std::declval<Session&>().tick(ToolState{})));
 static_assert(noexcept(std::declval<Session&>().emergency_stop()));
+static_assert(noexcept(std::declval<Session&>().move_obstacle(0, Vec3{})));
+static_assert(noexcept(std::declval<Session&>().publish_obstacles()));
 static_assert(std::is_trivially_copyable_v<Tick> && std::is_trivially_copyable_v<ToolState>);
 
 // From another file of this program: the header is there twice.
@@ -59,6 +62,22 @@ diameter = 0.02
 speed = 1.5
 [gate]
 ramp_in = 0.02
+)";
+
+// To be put behind it: a second tool in a jet of its own, and a plate beside it.
+static const char* const more = R"(
+[[source]]
+name = "right"
+position = [0.06, 0.05, 0.0]
+diameter = 0.02
+speed = 1.0
+[[tool]]
+[[tool]]
+name = "second"
+position = [0.06, 0.0, 0.0]
+[[obstacle]]
+name = "plate"
+position = [-0.06, 0.0, 0.0]
 )";
 
 static Session open_jet(const char* settings = "") {
@@ -342,6 +361,61 @@ static void fluid_and_particles() {
     THROWS(HAPFLOW_ERROR_TIME, {hapflow_result_text(HAPFLOW_ERROR_TIME)}, session.fluid_step(0.1));
 }
 
+static void several_tools_and_obstacles() {
+    Config config;
+    config.toml = std::string(jet) + more;
+    Session session(config);
+    CHECK(session.tool_count() == 2 && session.obstacle_count() == 1);
+    ToolState first, second;
+    second.tool = 1;
+    second.position[0] = 0.06;
+    Tick ticks[2];
+    for (int n = 0; n < 200; n++) {
+        first.time_s = second.time_s = n * 1e-3;
+        CHECK(session.move_obstacle(0, {{-0.06, n * 1e-5, 0}}) == HAPFLOW_OK);
+        CHECK(session.publish_obstacles() == HAPFLOW_OK);
+        session.fluid_advance(first.time_s);
+        ticks[0] = session.tick(first);
+        ticks[1] = session.tick(second);
+    }
+    CHECK(ticks[0].ok() && ticks[1].ok());
+    CHECK(ticks[1].wrench.force[1] < -0.05 && ticks[0].wrench.force[1] < 1.3 * ticks[1].wrench.force[1]);
+    CHECK(session.report().force[1] == ticks[0].wrench.force[1]);
+    CHECK(session.report(1).force[1] == ticks[1].wrench.force[1]);
+    THROWS(HAPFLOW_ERROR_INDEX, {"report: no tool 2"}, static_cast<void>(session.report(2)));
+
+    CHECK(session.move_obstacle(1, Vec3{}) == HAPFLOW_ERROR_INDEX);
+    CHECK(session.move_obstacle(0, Vec3{}, {{0, 0, 0, 2}}) == HAPFLOW_ERROR_ORIENTATION);
+    CHECK(session.move_obstacle(0, {{HUGE_VAL, 0, 0}}) == HAPFLOW_ERROR_NOT_FINITE);
+}
+
+static void a_session_that_steps_its_fluid() {
+    Config config;
+    config.toml = jet;
+    config.settings = "run.backend = cpu\nfluid.spacing = 0.01";
+    config.threads = 1;
+    config.fluid_drive = HAPFLOW_DRIVE_OWNED;
+    Session session(config);
+    THROWS(HAPFLOW_ERROR_DRIVE, {"fluid_advance: "}, session.fluid_advance(1));
+    THROWS(HAPFLOW_ERROR_DRIVE, {"particles: "}, static_cast<void>(session.particles()));
+    std::vector<float> positions(7, 1.0F);
+    session.latest_particles(positions);
+    CHECK(positions.empty());
+    ToolState state;
+    for (int n = 0; n < 20000 && positions.size() < 30; n++) {
+        state.time_s = n * 1e-3;
+        CHECK(session.tick(state).ok());
+        session.latest_particles(positions);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    CHECK(positions.size() >= 30 && positions.size() % 3 == 0);
+    for (const float coordinate : positions) {
+        CHECK(std::abs(coordinate) < 1);
+    }
+    config.fluid_drive = 2;
+    THROWS(HAPFLOW_ERROR_UNSUPPORTED, {"fluid_drive = 2"}, Session{config});
+}
+
 // Everything of `session` is refused, and nothing of it pushes.
 static void gone(Session& session) {
     const Tick tick = session.tick(ToolState{});
@@ -355,6 +429,12 @@ static void gone(Session& session) {
     THROWS(HAPFLOW_ERROR_HANDLE, {"get"}, static_cast<void>(session.get<bool>("fluid.two_way")));
     THROWS(HAPFLOW_ERROR_HANDLE, {"settings"}, static_cast<void>(session.settings()));
     THROWS(HAPFLOW_ERROR_HANDLE, {"report"}, static_cast<void>(session.report()));
+    THROWS(HAPFLOW_ERROR_HANDLE, {"tool_count"}, static_cast<void>(session.tool_count()));
+    THROWS(HAPFLOW_ERROR_HANDLE, {"obstacle_count"}, static_cast<void>(session.obstacle_count()));
+    std::vector<float> positions;
+    THROWS(HAPFLOW_ERROR_HANDLE, {"latest_particles"}, session.latest_particles(positions));
+    CHECK(session.move_obstacle(0, Vec3{}) == HAPFLOW_ERROR_HANDLE);
+    CHECK(session.publish_obstacles() == HAPFLOW_ERROR_HANDLE);
     THROWS(HAPFLOW_ERROR_HANDLE, {"destroy"}, session.destroy());
 }
 
@@ -449,6 +529,8 @@ int main() {
     settings();
     vectors_are_read_in_every_locale();
     fluid_and_particles();
+    several_tools_and_obstacles();
+    a_session_that_steps_its_fluid();
     three_threads_on_one_session();
     moves_and_lives();
     std::printf(failed == 0 ? "all passed\n" : "%d failed\n", failed);

@@ -370,7 +370,8 @@ HAPFLOW_API hapflow_result hapflow_servo_tick(hapflow_session session, const hap
  * same each time, to the last bit.
  *
  * A frame's model reaches the servo when the next frame ends, as on a machine that computes in real time.
- * Errors: HANDLE, BUSY, DRIVE, NOT_FINITE, FAULTED, TIME (more than 10 s after the newest frame's end: another clock?). */
+ * Errors: HANDLE, BUSY, DRIVE, NOT_FINITE, FAULTED, TIME (more than 10 s after the newest frame's end: another
+ * clock?). */
 HAPFLOW_API hapflow_result hapflow_fluid_advance(hapflow_session session, double time_s);
 
 /* Steps one frame, whose tool path ends at `end_s` on the servo's clock. [fluid] For a thread that steps in real
@@ -403,9 +404,9 @@ HAPFLOW_API hapflow_result hapflow_session_particles(hapflow_session session, fl
 /* How many obstacles the scene has. [any] It stays as it is. Errors: HANDLE, NULL. */
 HAPFLOW_API hapflow_result hapflow_obstacle_count(hapflow_session session, uint32_t* count);
 
-/* Where obstacle `index`, from 0, is to be: `position` (m, each within 1000) and `orientation` (unit quaternion x, y, z,
- * w, its length within 1e-3 of 1). [obstacle] Nothing happens before hapflow_obstacle_publish. From then on its setting
- * is without effect.
+/* Where obstacle `index`, from 0, is to be: `position` (m, each within 1000) and `orientation` (unit quaternion x, y,
+ * z, w, its length within 1e-3 of 1). [obstacle] Nothing happens before hapflow_obstacle_publish. From then on its
+ * setting is without effect.
  * Errors: HANDLE, BUSY, NULL, INDEX, NOT_FINITE, VALUE (too far), ORIENTATION. */
 HAPFLOW_API hapflow_result hapflow_obstacle_move(hapflow_session session, uint32_t index, const double position[3],
                                                  const double orientation[4]);

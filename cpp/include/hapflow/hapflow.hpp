@@ -12,10 +12,11 @@
 // What a function does, and what it may be given, is said in hapflow.h, which is the contract; here is said how C++
 // sees it. Each function has the thread class of the C function below it:
 //
-//     [main]   may block and allocate. One thread at a time a session; it need not always be the same.
-//     [servo]  wait-free: no lock, no allocation, no system call, no log. One thread at a time.
-//     [fluid]  computes, for milliseconds. One thread at a time a session.
-//     [any]    lock-free, by any number of threads at once.
+//     [main]      may block and allocate. One thread at a time a session; it need not always be the same.
+//     [servo]     wait-free: no lock, no allocation, no system call, no log. One thread at a time a tool.
+//     [fluid]     computes, for milliseconds. One thread at a time a session.
+//     [obstacle]  wait-free, as [servo]. One thread at a time a session.
+//     [any]       lock-free, by any number of threads at once.
 //
 // Functions of different classes may run on one Session at the same time. Only to move it, to assign to it and to
 // let it end, a thread must have it for itself. Whatever fails throws Error; a function that is noexcept gives the
@@ -174,22 +175,23 @@ inline std::uint32_t negotiate() {
 
 /// How a session is made. Exactly one of `scene` and `toml` is given.
 struct Config {
-    std::string scene;         ///< Name of a shipped scene, as "tap", or path of a scene file.
-    std::string toml;          ///< Text of a scene file.
-    std::string settings;      ///< Lines `path = value` that are set on top.
-    std::uint32_t threads = 0; ///< Worker threads of the fluid; 0: all cores but one. Results do not depend on it.
+    std::string scene;             ///< Name of a shipped scene, as "tap", or path of a scene file.
+    std::string toml;              ///< Text of a scene file.
+    std::string settings;          ///< Lines `path = value` that are set on top.
+    std::uint32_t threads = 0;     ///< Worker threads of the fluid; 0: all cores but one. Results do not depend on it.
+    std::uint32_t fluid_drive = 0; ///< HAPFLOW_DRIVE_HOST, or _OWNED: the session steps the fluid itself.
 };
 
 /// Where the hand is, and when: see hapflow_tool_state. By default at rest in the origin, at time 0.
 struct ToolState {
-    double time_s = 0;                                 ///< Since the session's start, never less than before, s.
+    double time_s = 0;                                 ///< Since the session's start, never before the tool's last, s.
     double dt_s = 0.001;                               ///< Since the last tick, s.
     Vec3 position{};                                   ///< m.
     std::array<double, 4> orientation{{0, 0, 0, 1}};   ///< Unit quaternion x, y, z, w, tool to device frame.
     Vec3 velocity{};                                   ///< m/s.
     Vec3 angular_velocity{};                           ///< rad/s, in the device frame.
     std::uint32_t buttons = 0;                         ///< Bit n: button n is down.
-    std::uint32_t tool = 0;                            ///< 0: the only one yet.
+    std::uint32_t tool = 0;                            ///< Which one of the scene, from 0.
 };
 
 /// What the hand is to feel. Finite, and within the limits of the scene's safety gate.
@@ -223,7 +225,8 @@ struct Setting {
     std::string usual;                ///< Its value where a scene says nothing.
 };
 
-/// A scene, its fluid and its tool; the host drives both. Owns the session of the C interface, and destroys it.
+/// A scene, its fluid and its tools; the host ticks them, and steps the fluid or lets the session do it. Owns the
+/// session of the C interface, and destroys it.
 class Session {
 public:
     /// Makes a session: milliseconds to seconds, as the scene has particles. [main, several at once]
@@ -236,6 +239,7 @@ public:
         c.toml_length = config.toml.size();
         c.settings = detail::c_text_or_null(config.settings, "settings");
         c.threads = config.threads;
+        c.fluid_drive = config.fluid_drive;
         detail::check(hapflow_tool_state_init(&blank_, detail::size_of<hapflow_tool_state>()), "tool state");
         detail::check_main(hapflow_session_create(&c, &session_), "session");
     }
@@ -291,6 +295,13 @@ public:
         return tick;
     }
 
+    /// How many tools the scene has; each is ticked by itself. [any]
+    [[nodiscard]] std::uint32_t tool_count() const {
+        std::uint32_t count = 0;
+        detail::check(hapflow_session_tool_count(session_, &count), "tool_count");
+        return count;
+    }
+
     /// No force from the next tick on, until the faults are cleared. [any]
     hapflow_result emergency_stop() noexcept { return hapflow_session_emergency_stop(session_); }
 
@@ -325,6 +336,36 @@ public:
         particles(positions);
         return positions;
     }
+
+    /// The particles that came last, whoever steps the fluid, as particles() gives them; and asks for more, which come
+    /// with the next fluid frame. [main] There are none until the first have come.
+    void latest_particles(std::vector<float>& positions) {
+        std::size_t count = 0;
+        detail::check_main(hapflow_session_particles(session_, nullptr, 0, &count), "latest_particles");
+        positions.resize(count * 3);
+        if (count > 0) {
+            const hapflow_result result = hapflow_session_particles(session_, positions.data(), count, &count);
+            detail::check_main(result, "latest_particles");
+        }
+    }
+
+    // -------------------------------------------------------------------------------------------- obstacles
+
+    /// How many obstacles the scene has. [any]
+    [[nodiscard]] std::uint32_t obstacle_count() const {
+        std::uint32_t count = 0;
+        detail::check(hapflow_obstacle_count(session_, &count), "obstacle_count");
+        return count;
+    }
+
+    /// Where obstacle `index`, from 0, is to be once publish_obstacles() is called. [obstacle] Gives the result.
+    hapflow_result move_obstacle(std::uint32_t index, const Vec3& position,
+                                 const std::array<double, 4>& orientation = {{0, 0, 0, 1}}) noexcept {
+        return hapflow_obstacle_move(session_, index, position.data(), orientation.data());
+    }
+
+    /// Hands the places of all obstacles to the fluid, together. [obstacle] Gives the result.
+    hapflow_result publish_obstacles() noexcept { return hapflow_obstacle_publish(session_); }
 
     // -------------------------------------------------------------------------------------------- settings
 
@@ -405,11 +446,11 @@ public:
         return settings;
     }
 
-    /// Reads the newest tick and frame. [main] Never waits for either.
-    [[nodiscard]] Report report() const {
+    /// Reads the newest tick of a tool, and the newest frame. [main] Never waits for either.
+    [[nodiscard]] Report report(std::uint32_t tool = 0) const {
         Report report{};
         detail::check(hapflow_report_init(&report, detail::size_of<Report>()), "report");
-        detail::check_main(hapflow_session_report(session_, &report), "report");
+        detail::check_main(hapflow_session_report_of(session_, tool, &report), "report");
         return report;
     }
 
