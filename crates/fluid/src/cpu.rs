@@ -172,7 +172,9 @@ impl Fluid {
         }
         self.emitters.resize(new.world.sources.len(), Emitter::default());
         let support = new.settings.support_length();
-        if support != old.settings.support_length() || old.world.bodies != new.world.bodies {
+        let shapes = |config: &FluidConfig| config.world.bodies.iter().map(|b| b.shape).collect::<Vec<_>>();
+        // A table costs milliseconds: a body that only moves or weighs otherwise keeps its own.
+        if support != old.settings.support_length() || shapes(old) != shapes(new) {
             self.plane = WallTable::plane(support);
             self.tables = BodyTables::new(&new.world.bodies, support);
         }

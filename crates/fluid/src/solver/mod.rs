@@ -12,6 +12,7 @@ use crate::grid::Grid;
 use crate::particles::Particles;
 use crate::solids::Solids;
 use crate::{FluidConfig, Solver};
+use pulp::Simd;
 use rayon::prelude::*;
 
 /// Kinematic viscosity that the solver of `config` adds to the stated one, m²/s.
@@ -37,29 +38,58 @@ pub(crate) struct Pass<'a> {
 /// One row of results for each particle: what it means is the pass's own business.
 pub(crate) type Rows = Vec<[f32; 4]>;
 
-/// Runs `chunk(first, rows)` over all particles.
-pub(crate) fn sweep(rows: &mut Rows, n: usize, chunk: impl Fn(usize, &mut [[f32; 4]]) + Sync) {
-    rows.resize(n, [0.0; 4]);
-    rows.par_chunks_mut(CHUNK).enumerate().for_each(|(c, rows)| chunk(c * CHUNK, rows));
+/// What a pass computes of one particle and its neighbours: its row, and its share of the loads on the bodies.
+pub(crate) trait RowPass: Copy + Sync {
+    fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, loads: &mut [BodyLoad]) -> [f32; 4];
+}
+
+/// One chunk of a pass, compiled for the processor at hand.
+struct Chunk<'a, P> {
+    work: P,
+    pass: Pass<'a>,
+    first: usize,
+    rows: &'a mut [[f32; 4]],
+    loads: &'a mut [BodyLoad],
+}
+
+impl<P: RowPass> pulp::WithSimd for Chunk<'_, P> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        for (k, row) in self.rows.iter_mut().enumerate() {
+            *row = self.work.row(simd, &self.pass, self.first + k, self.loads);
+        }
+    }
+}
+
+/// Runs `work` over all particles.
+pub(crate) fn sweep(pass: Pass<'_>, work: impl RowPass, rows: &mut Rows) {
+    rows.resize(pass.particles.len(), [0.0; 4]);
+    rows.par_chunks_mut(CHUNK).enumerate().for_each(|(c, rows)| {
+        pass.arch.dispatch(Chunk { work, pass, first: c * CHUNK, rows, loads: &mut [] });
+    });
 }
 
 /// Like [`sweep`], with loads on `loads.len()` bodies, added to `loads` in the order of the chunks.
 pub(crate) fn sweep_with_loads(
+    pass: Pass<'_>,
+    work: impl RowPass,
     rows: &mut Rows,
     partial: &mut Vec<BodyLoad>,
     loads: &mut [BodyLoad],
-    n: usize,
-    chunk: impl Fn(usize, &mut [[f32; 4]], &mut [BodyLoad]) + Sync,
 ) {
-    let bodies = loads.len();
+    let (bodies, n) = (loads.len(), pass.particles.len());
     if bodies == 0 {
-        return sweep(rows, n, |first, rows| chunk(first, rows, &mut []));
+        return sweep(pass, work, rows);
     }
     rows.resize(n, [0.0; 4]);
     partial.clear();
     partial.resize(n.div_ceil(CHUNK) * bodies, BodyLoad::default());
     let chunks = rows.par_chunks_mut(CHUNK).zip(partial.par_chunks_mut(bodies)).enumerate();
-    chunks.for_each(|(c, (rows, loads))| chunk(c * CHUNK, rows, loads));
+    chunks.for_each(|(c, (rows, loads))| {
+        pass.arch.dispatch(Chunk { work, pass, first: c * CHUNK, rows, loads });
+    });
     for group in partial.chunks(bodies) {
         for (load, part) in loads.iter_mut().zip(group) {
             load.add_scaled(part, 1.0);

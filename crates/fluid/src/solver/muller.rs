@@ -9,8 +9,9 @@
 //! `cpu.rs`). `forgiven` is the density that particles have too much of when interaction is switched on: it
 //! fades away in a quarter of a second instead of bursting.
 
-use super::{Pass, Rows, sweep};
+use super::{Pass, RowPass, Rows, sweep};
 use crate::FluidConfig;
+use crate::body::BodyLoad;
 use crate::lanes::{add_scaled, difference, dot, fma, for_lanes, splat3, sum3};
 use crate::particles::Particles;
 use glam::Vec3;
@@ -57,7 +58,7 @@ impl Muller {
             rest_density: s.rest_density as f32,
             stiffness: s.stiffness as f32,
             cohesion: s.cohesion as f32,
-            viscosity: (s.viscosity + s.rest_density * artificial_viscosity(config)) as f32,
+            viscosity: config.effective_viscosity() as f32,
             tension: s.surface_tension as f32,
             poly6: (315.0 / (64.0 * PI * h.powi(9))) as f32,
             spiky: (45.0 / (PI * h.powi(6))) as f32,
@@ -68,9 +69,7 @@ impl Muller {
 
     /// Rows of [density kg/m³, –, –, –].
     pub fn densities(&self, pass: Pass<'_>, rows: &mut Rows) {
-        sweep(rows, pass.particles.len(), |first, rows| {
-            pass.arch.dispatch(Densities { solver: self, pass, first, rows });
-        });
+        sweep(pass, Densities(self), rows);
     }
 
     /// Takes pressures from the densities; `forgive` when interaction has just been switched on.
@@ -88,64 +87,44 @@ impl Muller {
 
     /// Rows of [acceleration without gravity m/s², –].
     pub fn accelerations(&self, pass: Pass<'_>, rows: &mut Rows) {
-        sweep(rows, pass.particles.len(), |first, rows| {
-            pass.arch.dispatch(Accelerations { solver: self, pass, first, rows });
-        });
+        sweep(pass, Accelerations(self), rows);
     }
 }
 
-struct Densities<'a> {
-    solver: &'a Muller,
-    pass: Pass<'a>,
-    first: usize,
-    rows: &'a mut [[f32; 4]],
-}
+#[derive(Clone, Copy)]
+struct Densities<'a>(&'a Muller);
 
-impl pulp::WithSimd for Densities<'_> {
-    type Output = ();
-
+impl RowPass for Densities<'_> {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let (s, p) = (self.solver, self.pass.particles);
+    fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, _: &mut [BodyLoad]) -> [f32; 4] {
+        let (s, p) = (self.0, pass.particles);
         let (h2, zero) = (simd.splat_f32s(s.support * s.support), simd.splat_f32s(0.0));
-        for (k, row) in self.rows.iter_mut().enumerate() {
-            let i = self.first + k;
-            let xi = splat3(simd, p.position(i).to_array());
-            let mut sum = zero;
-            for range in self.pass.grid.neighbours(i) {
-                for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z], live, {
-                    let d = difference(simd, xi, [x, y, z]);
-                    let t = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(h2, dot(simd, d, d)), zero), live);
-                    sum = fma(simd, simd.mul_f32s(t, t), t, sum);
-                });
-            }
-            row[0] = simd.reduce_sum_f32s(sum) * s.poly6 * s.mass;
+        let xi = splat3(simd, p.position(i).to_array());
+        let mut sum = zero;
+        for range in pass.grid.neighbours(i) {
+            for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z], live, {
+                let d = difference(simd, xi, [x, y, z]);
+                let t = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(h2, dot(simd, d, d)), zero), live);
+                sum = fma(simd, simd.mul_f32s(t, t), t, sum);
+            });
         }
+        [simd.reduce_sum_f32s(sum) * s.poly6 * s.mass, 0.0, 0.0, 0.0]
     }
 }
 
-struct Accelerations<'a> {
-    solver: &'a Muller,
-    pass: Pass<'a>,
-    first: usize,
-    rows: &'a mut [[f32; 4]],
-}
+#[derive(Clone, Copy)]
+struct Accelerations<'a>(&'a Muller);
 
-impl pulp::WithSimd for Accelerations<'_> {
-    type Output = ();
-
+impl RowPass for Accelerations<'_> {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let (s, p) = (self.solver, self.pass.particles);
-        for (k, row) in self.rows.iter_mut().enumerate() {
-            let i = self.first + k;
-            let mut force = Vec3::from(pair_force(simd, s, &self.pass, i)) * (s.mass * s.spiky);
-            if s.tension > 0.0 {
-                force += surface_tension(simd, s, &self.pass, i);
-            }
-            let a = force * p.aux[i];
-            *row = [a.x, a.y, a.z, 0.0];
+    fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, _: &mut [BodyLoad]) -> [f32; 4] {
+        let s = self.0;
+        let mut force = Vec3::from(pair_force(simd, s, pass, i)) * (s.mass * s.spiky);
+        if s.tension > 0.0 {
+            force += surface_tension(simd, s, pass, i);
         }
+        let a = force * pass.particles.aux[i];
+        [a.x, a.y, a.z, 0.0]
     }
 }
 

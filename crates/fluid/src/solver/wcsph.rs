@@ -14,7 +14,7 @@
 //! density, because an integrated density forgets how many particles there are. Walls: see `wall.rs`.
 //! Pressure never pulls: a free surface has P = 0.
 
-use super::{Pass, Rows, sweep, sweep_with_loads};
+use super::{Pass, RowPass, Rows, sweep, sweep_with_loads};
 use crate::body::BodyLoad;
 use crate::lanes::{add_scaled, difference, dot, fma, for_lanes, splat3, sum3};
 use crate::particles::Particles;
@@ -88,16 +88,12 @@ impl Wcsph {
 
     /// Rows of [divergence 1/s, diffusion m²/s³, –, –].
     pub fn rates(&self, pass: Pass<'_>, rows: &mut Rows) {
-        sweep(rows, pass.particles.len(), |first, rows| {
-            pass.arch.dispatch(Rates { solver: self, pass, first, rows });
-        });
+        sweep(pass, Rates(self), rows);
     }
 
     /// Rows of [summed density over ρ₀, –, –, –].
     pub fn packing(&self, pass: Pass<'_>, rows: &mut Rows) {
-        sweep(rows, pass.particles.len(), |first, rows| {
-            pass.arch.dispatch(Packing { solver: self, pass, first, rows });
-        });
+        sweep(pass, Packing(self), rows);
     }
 
     /// Rows of [acceleration without gravity m/s², –]; adds the bodies' loads.
@@ -108,9 +104,7 @@ impl Wcsph {
         partial: &mut Vec<BodyLoad>,
         loads: &mut [BodyLoad],
     ) {
-        sweep_with_loads(rows, partial, loads, pass.particles.len(), |first, rows, loads| {
-            pass.arch.dispatch(Accelerations { solver: self, pass, first, rows, loads });
-        });
+        sweep_with_loads(pass, Accelerations(self), rows, partial, loads);
     }
 
     /// Sets the packing feedback from the summed densities.
@@ -166,27 +160,18 @@ impl Wcsph {
     }
 }
 
-struct Rates<'a> {
-    solver: &'a Wcsph,
-    pass: Pass<'a>,
-    first: usize,
-    rows: &'a mut [[f32; 4]],
-}
+#[derive(Clone, Copy)]
+struct Rates<'a>(&'a Wcsph);
 
-impl pulp::WithSimd for Rates<'_> {
-    type Output = ();
-
+impl RowPass for Rates<'_> {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let (s, p) = (self.solver, self.pass.particles);
-        for (k, row) in self.rows.iter_mut().enumerate() {
-            let i = self.first + k;
-            let (xi, vi) = (p.position(i), p.velocity(i));
-            let [divergence, diffusion] = pair_rates(simd, s, &self.pass, i);
-            let mut total = divergence * s.scale;
-            self.pass.solids.visit(xi, s.support, |m| total += s.wall_divergence(&self.pass, &m, vi));
-            *row = [total, diffusion * 2.0 * s.scale * s.diffusion, 0.0, 0.0];
-        }
+    fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, _: &mut [BodyLoad]) -> [f32; 4] {
+        let (s, p) = (self.0, pass.particles);
+        let (xi, vi) = (p.position(i), p.velocity(i));
+        let [divergence, diffusion] = pair_rates(simd, s, pass, i);
+        let mut total = divergence * s.scale;
+        pass.solids.visit(xi, s.support, |m| total += s.wall_divergence(pass, &m, vi));
+        [total, diffusion * 2.0 * s.scale * s.diffusion, 0.0, 0.0]
     }
 }
 
@@ -214,34 +199,23 @@ fn pair_rates<S: Simd>(simd: S, s: &Wcsph, pass: &Pass<'_>, i: usize) -> [f32; 2
     [simd.reduce_sum_f32s(divergence), simd.reduce_sum_f32s(diffusion)]
 }
 
-struct Accelerations<'a> {
-    solver: &'a Wcsph,
-    pass: Pass<'a>,
-    first: usize,
-    rows: &'a mut [[f32; 4]],
-    loads: &'a mut [BodyLoad],
-}
+#[derive(Clone, Copy)]
+struct Accelerations<'a>(&'a Wcsph);
 
-impl pulp::WithSimd for Accelerations<'_> {
-    type Output = ();
-
+impl RowPass for Accelerations<'_> {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let (s, p) = (self.solver, self.pass.particles);
-        let loads = self.loads;
-        for (k, row) in self.rows.iter_mut().enumerate() {
-            let i = self.first + k;
-            let (xi, vi) = (p.position(i), p.velocity(i));
-            let mut total = Vec3::from(pair_acceleration(simd, s, &self.pass, i)) * s.scale;
-            self.pass.solids.visit(xi, s.support, |m| {
-                let [push, drag] = s.wall_acceleration(&self.pass, &m, vi, p.aux[i]);
-                total += push + drag;
-                if let (true, Some(body)) = (s.two_way, m.body) {
-                    loads[body].react(push * s.mass, drag * s.mass, m.contact.arm);
-                }
-            });
-            *row = [total.x, total.y, total.z, 0.0];
-        }
+    fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, loads: &mut [BodyLoad]) -> [f32; 4] {
+        let (s, p) = (self.0, pass.particles);
+        let (xi, vi) = (p.position(i), p.velocity(i));
+        let mut total = Vec3::from(pair_acceleration(simd, s, pass, i)) * s.scale;
+        pass.solids.visit(xi, s.support, |m| {
+            let [push, drag] = s.wall_acceleration(pass, &m, vi, p.aux[i]);
+            total += push + drag;
+            if let (true, Some(body)) = (s.two_way, m.body) {
+                loads[body].react(push * s.mass, drag * s.mass, m.contact.arm);
+            }
+        });
+        [total.x, total.y, total.z, 0.0]
     }
 }
 
@@ -270,27 +244,16 @@ fn pair_acceleration<S: Simd>(simd: S, s: &Wcsph, pass: &Pass<'_>, i: usize) -> 
     sum3(simd, sum)
 }
 
-struct Packing<'a> {
-    solver: &'a Wcsph,
-    pass: Pass<'a>,
-    first: usize,
-    rows: &'a mut [[f32; 4]],
-}
+#[derive(Clone, Copy)]
+struct Packing<'a>(&'a Wcsph);
 
-impl pulp::WithSimd for Packing<'_> {
-    type Output = ();
-
+impl RowPass for Packing<'_> {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let s = self.solver;
-        for (k, row) in self.rows.iter_mut().enumerate() {
-            let i = self.first + k;
-            let mut total = pair_packing(simd, s, &self.pass, i) * s.sum_scale;
-            self.pass.solids.visit(self.pass.particles.position(i), s.support, |m| {
-                total += self.pass.solids.terms(&m).volume;
-            });
-            *row = [total, 0.0, 0.0, 0.0];
-        }
+    fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, _: &mut [BodyLoad]) -> [f32; 4] {
+        let s = self.0;
+        let mut total = pair_packing(simd, s, pass, i) * s.sum_scale;
+        pass.solids.visit(pass.particles.position(i), s.support, |m| total += pass.solids.terms(&m).volume);
+        [total, 0.0, 0.0, 0.0]
     }
 }
 
