@@ -1,11 +1,11 @@
 //! Reading a scene from TOML. Every error names the file, the line, the field, the value and what it must be.
 
-use crate::scene::{Change, Obstacle, Scene, ToolSettings};
-use crate::settings::{self, OBSTACLE_SETTINGS, SOURCE_SETTINGS, Setting, TOOL_SETTINGS};
+use crate::scene::{Change, Scene};
+use crate::settings::{self, Named};
 use crate::{SceneError, Value};
 use glam::DVec3;
 use hapflow_devices::{HandPreset, HandSettings, Segment};
-use hapflow_fluid::{Aabb, OpenBox, Source};
+use hapflow_fluid::{Aabb, OpenBox};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -80,35 +80,12 @@ impl Reader<'_> {
             }
             ("pool", DeValue::Array(list)) => scene.pools = self.boxes(key, list)?,
             ("sink", DeValue::Array(list)) => scene.sinks = self.boxes(key, list)?,
-            ("source", DeValue::Array(list)) => {
-                for (k, item) in list.iter().enumerate() {
-                    let mut source = Source { name: k.to_string(), ..Source::default() };
-                    if let Some(name) = self.named("source", item, SOURCE_SETTINGS, &mut source)? {
-                        source.name = name;
-                    }
-                    scene.sources.push(source);
-                }
-            }
+            ("source", DeValue::Array(list)) => scene.sources = self.named(list)?,
+            ("obstacle", DeValue::Array(list)) => scene.obstacles = self.named(list)?,
             ("tool", DeValue::Array(list)) => {
-                for (k, item) in list.iter().enumerate() {
-                    let mut tool = ToolSettings { name: k.to_string(), ..ToolSettings::default() };
-                    if let Some(name) = self.named("tool", item, TOOL_SETTINGS, &mut tool)? {
-                        tool.name = name;
-                    }
-                    if k == 0 {
-                        scene.tool = tool;
-                    } else {
-                        scene.more_tools.push(tool);
-                    }
-                }
-            }
-            ("obstacle", DeValue::Array(list)) => {
-                for (k, item) in list.iter().enumerate() {
-                    let mut obstacle = Obstacle { name: k.to_string(), ..Obstacle::default() };
-                    if let Some(name) = self.named("obstacle", item, OBSTACLE_SETTINGS, &mut obstacle)? {
-                        obstacle.name = name;
-                    }
-                    scene.obstacles.push(obstacle);
+                scene.more_tools = self.named(list)?;
+                if !scene.more_tools.is_empty() {
+                    scene.tool = scene.more_tools.remove(0);
                 }
             }
             ("change", DeValue::Array(list)) => {
@@ -206,43 +183,35 @@ impl Reader<'_> {
         list.iter().map(read).collect()
     }
 
-    /// Reads one of several things with names; returns its name, if it has one of its own.
-    fn named<T>(
-        &self,
-        kind: &str,
-        item: &Item<'_>,
-        table: &[Setting<T>],
-        owner: &mut T,
-    ) -> Result<Option<String>, SceneError> {
+    /// Reads several things with names; one without is called by its number.
+    fn named<T: Named>(&self, list: &[Item<'_>]) -> Result<Vec<T>, SceneError> {
+        list.iter().enumerate().map(|(k, item)| self.named_one(k, item)).collect()
+    }
+
+    fn named_one<T: Named>(&self, number: usize, item: &Item<'_>) -> Result<T, SceneError> {
+        let kind = T::KIND;
         let DeValue::Table(fields) = item.get_ref() else {
             return self.wrong(item, &format!("{kind} must be a table: [[{kind}]]"));
         };
-        let mut own = None;
+        let mut thing = T::default();
+        thing.rename(number.to_string());
         for (name, value) in fields {
-            let field = name.get_ref().as_ref();
-            if field == "name" {
-                own = Some(self.text_of("name", value)?);
-            } else {
-                self.put(table, owner, &format!("{kind}.{field}"), field, value)?;
+            match name.get_ref().as_ref() {
+                "name" => thing.rename(self.text_of("name", value)?),
+                field => self.put(&mut thing, field, value)?,
             }
         }
-        Ok(own)
+        Ok(thing)
     }
 
-    fn put<T>(
-        &self,
-        table: &[Setting<T>],
-        owner: &mut T,
-        path: &str,
-        field: &str,
-        item: &Item<'_>,
-    ) -> Result<(), SceneError> {
-        let Some(setting) = table.iter().find(|s| s.path == field) else {
-            let known: Vec<_> = table.iter().map(|s| s.path).collect();
+    fn put<T: Named>(&self, thing: &mut T, field: &str, item: &Item<'_>) -> Result<(), SceneError> {
+        let path = format!("{}.{field}", T::KIND);
+        let Some(setting) = T::TABLE.iter().find(|s| s.path == field) else {
+            let known: Vec<_> = T::TABLE.iter().map(|s| s.path).collect();
             return self.wrong(item, &format!("no setting \"{path}\"; there are {}", known.join(", ")));
         };
         let value = self.value(item)?;
-        setting.put(owner, path, &value).map_err(|e| self.error_at(item.span().start, &e.to_string()))
+        setting.put(thing, &path, &value, false).map_err(|e| self.error_at(item.span().start, &e.to_string()))
     }
 
     fn change(&self, scene: &Scene, item: &Item<'_>) -> Result<Change, SceneError> {

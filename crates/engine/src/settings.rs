@@ -82,7 +82,17 @@ impl<T> Setting<T> {
         }
     }
 
-    pub(crate) fn put(&self, owner: &mut T, path: &str, value: &Value) -> Result<(), SceneError> {
+    /// Sets it in `owner`; `running` refuses what holds for a whole session.
+    pub(crate) fn put(
+        &self,
+        owner: &mut T,
+        path: &str,
+        value: &Value,
+        running: bool,
+    ) -> Result<(), SceneError> {
+        if running && !self.live {
+            return Err(SceneError::NotLive(path.into()));
+        }
         let bad =
             |expected: String| SceneError::BadValue { path: path.into(), value: value.to_string(), expected };
         if !self.fits(value) {
@@ -520,13 +530,11 @@ pub fn table() -> String {
     for setting in SETTINGS {
         text += &row(setting, &scene, setting.path);
     }
-    let source = Source::default();
     for setting in SOURCE_SETTINGS {
-        text += &row(setting, &source, &format!("source.NAME.{}", setting.path));
+        text += &row(setting, &Source::default(), &format!("source.NAME.{}", setting.path));
     }
-    let obstacle = Obstacle::default();
     for setting in OBSTACLE_SETTINGS {
-        text += &row(setting, &obstacle, &format!("obstacle.NAME.{}", setting.path));
+        text += &row(setting, &Obstacle::default(), &format!("obstacle.NAME.{}", setting.path));
     }
     text
 }
@@ -601,28 +609,18 @@ pub fn set_live(scene: &mut Scene, path: &str, value: &Value) -> Result<(), Scen
     put(scene, path, value, true)
 }
 
-fn put(scene: &mut Scene, path: &str, value: &Value, live: bool) -> Result<(), SceneError> {
-    let fixed = |is_live: bool| live && !is_live;
-    if let Some((source, setting)) = find_source(scene, path) {
-        return setting.put(&mut scene.sources[source], path, value);
+fn put(scene: &mut Scene, path: &str, value: &Value, running: bool) -> Result<(), SceneError> {
+    if let Some((k, setting)) = find(&scene.sources, path) {
+        return setting.put(&mut scene.sources[k], path, value, running);
     }
-    if let Some((obstacle, setting)) = find_obstacle(scene, path) {
-        if fixed(setting.live) {
-            return Err(SceneError::NotLive(path.into()));
-        }
-        return setting.put(&mut scene.obstacles[obstacle], path, value);
+    if let Some((k, setting)) = find(&scene.obstacles, path) {
+        return setting.put(&mut scene.obstacles[k], path, value, running);
     }
-    if let Some((tool, setting)) = find_tool(scene, path) {
-        if fixed(setting.live) {
-            return Err(SceneError::NotLive(path.into()));
-        }
-        return setting.put(&mut scene.more_tools[tool], path, value);
+    if let Some((k, setting)) = find(&scene.more_tools, path) {
+        return setting.put(&mut scene.more_tools[k], path, value, running);
     }
     let setting = SETTINGS.iter().find(|s| s.path == path).ok_or_else(|| unknown(scene, path))?;
-    if fixed(setting.live) {
-        return Err(SceneError::NotLive(path.into()));
-    }
-    setting.put(scene, path, value)
+    setting.put(scene, path, value, running)
 }
 
 /// The value at `path`.
@@ -630,48 +628,68 @@ fn put(scene: &mut Scene, path: &str, value: &Value, live: bool) -> Result<(), S
 /// # Errors
 /// An unknown path.
 pub fn get(scene: &Scene, path: &str) -> Result<Value, SceneError> {
-    if let Some((source, setting)) = find_source(scene, path) {
-        return Ok(setting.get(&scene.sources[source]));
+    if let Some((k, setting)) = find(&scene.sources, path) {
+        return Ok(setting.get(&scene.sources[k]));
     }
-    if let Some((obstacle, setting)) = find_obstacle(scene, path) {
-        return Ok(setting.get(&scene.obstacles[obstacle]));
+    if let Some((k, setting)) = find(&scene.obstacles, path) {
+        return Ok(setting.get(&scene.obstacles[k]));
     }
-    if let Some((tool, setting)) = find_tool(scene, path) {
-        return Ok(setting.get(&scene.more_tools[tool]));
+    if let Some((k, setting)) = find(&scene.more_tools, path) {
+        return Ok(setting.get(&scene.more_tools[k]));
     }
     let setting = SETTINGS.iter().find(|s| s.path == path).ok_or_else(|| unknown(scene, path))?;
     Ok(setting.get(scene))
 }
 
-fn find_source(scene: &Scene, path: &str) -> Option<(usize, &'static Setting<Source>)> {
-    let (name, field) = path.strip_prefix("source.")?.rsplit_once('.')?;
-    let source = scene.sources.iter().position(|s| s.name == name)?;
-    Some((source, SOURCE_SETTINGS.iter().find(|s| s.path == field)?))
+/// What a scene may hold several of, each addressed by its name: `KIND.NAME.field`.
+pub(crate) trait Named: Default + 'static {
+    /// First part of the path, and the name of the table in a scene file.
+    const KIND: &'static str;
+    /// Its settings.
+    const TABLE: &'static [Setting<Self>];
+    /// Its name.
+    fn name(&self) -> &str;
+    /// Gives it another name.
+    fn rename(&mut self, name: String);
 }
 
-/// A tool but the first, whose settings are in the one table of the scene.
-fn find_tool(scene: &Scene, path: &str) -> Option<(usize, &'static Setting<ToolSettings>)> {
-    let (name, field) = path.strip_prefix("tool.")?.rsplit_once('.')?;
-    let tool = scene.more_tools.iter().position(|t| t.name == name)?;
-    Some((tool, TOOL_SETTINGS.iter().find(|s| s.path == field)?))
+macro_rules! named {
+    ($thing:ty, $kind:literal, $table:ident) => {
+        impl Named for $thing {
+            const KIND: &'static str = $kind;
+            const TABLE: &'static [Setting<Self>] = $table;
+
+            fn name(&self) -> &str {
+                &self.name
+            }
+
+            fn rename(&mut self, name: String) {
+                self.name = name;
+            }
+        }
+    };
 }
 
-fn find_obstacle(scene: &Scene, path: &str) -> Option<(usize, &'static Setting<Obstacle>)> {
-    let (name, field) = path.strip_prefix("obstacle.")?.rsplit_once('.')?;
-    let obstacle = scene.obstacles.iter().position(|o| o.name == name)?;
-    Some((obstacle, OBSTACLE_SETTINGS.iter().find(|s| s.path == field)?))
+named!(Source, "source", SOURCE_SETTINGS);
+named!(Obstacle, "obstacle", OBSTACLE_SETTINGS);
+// In a path these are the tools but the first, whose settings are in the scene's own table.
+named!(ToolSettings, "tool", TOOL_SETTINGS);
+
+/// Which of `things` and which of its settings `path` means, if any.
+fn find<T: Named>(things: &[T], path: &str) -> Option<(usize, &'static Setting<T>)> {
+    let (name, field) = path.strip_prefix(T::KIND)?.strip_prefix('.')?.rsplit_once('.')?;
+    let thing = things.iter().position(|t| t.name() == name)?;
+    Some((thing, T::TABLE.iter().find(|s| s.path == field)?))
+}
+
+/// Every path of `things`.
+fn paths<T: Named>(things: &[T]) -> impl Iterator<Item = String> {
+    things.iter().flat_map(|t| T::TABLE.iter().map(move |s| format!("{}.{}.{}", T::KIND, t.name(), s.path)))
 }
 
 fn unknown(scene: &Scene, path: &str) -> SceneError {
-    let sources = scene
-        .sources
-        .iter()
-        .flat_map(|s| SOURCE_SETTINGS.iter().map(move |f| format!("source.{}.{}", s.name, f.path)));
-    let obstacles = scene
-        .obstacles
-        .iter()
-        .flat_map(|o| OBSTACLE_SETTINGS.iter().map(move |f| format!("obstacle.{}.{}", o.name, f.path)));
-    let all = SETTINGS.iter().map(|s| s.path.to_string()).chain(sources).chain(obstacles);
+    let all = SETTINGS.iter().map(|s| s.path.to_string()).chain(paths(&scene.sources));
+    let all = all.chain(paths(&scene.obstacles)).chain(paths(&scene.more_tools));
     let nearest = all.min_by_key(|known| distance(known, path));
     let hint = match nearest {
         Some(known) if distance(&known, path) <= 1 + path.len() / 3 => format!("; did you mean {known}?"),
