@@ -217,11 +217,12 @@ impl Run {
     }
 
     fn take_picture(&mut self, session: &Session, answered: u64, servo: ServoReport) -> u64 {
+        if session.particles_answered() == answered {
+            return answered;
+        }
         let mut particles = ParticleView::default();
         let now = session.particles(&mut particles);
-        if now > answered {
-            self.outcome.pictures.push(Picture { time_s: servo.time_s, particles, servo });
-        }
+        self.outcome.pictures.push(Picture { time_s: servo.time_s, particles, servo });
         now
     }
 

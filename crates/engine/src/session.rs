@@ -364,10 +364,15 @@ impl Session {
         self.shared.wanted.store(true, Ordering::Release);
     }
 
+    /// How many requests for particles were answered so far; a look at it copies nothing.
+    pub fn particles_answered(&self) -> u64 {
+        self.shared.answered.load(Ordering::Acquire)
+    }
+
     /// Copies the particles of the last answered request, and says how many requests were answered so far.
     pub fn particles(&self, view: &mut ParticleView) -> u64 {
         view.clone_from(&self.shared.view.lock().unwrap_or_else(PoisonError::into_inner));
-        self.shared.answered.load(Ordering::Acquire)
+        self.particles_answered()
     }
 
     /// What the system granted the first owned servo thread.
