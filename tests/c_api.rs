@@ -4,7 +4,7 @@
 
 mod c_support;
 
-use c_support::header::prototypes;
+use c_support::header::{self, prototypes};
 use c_support::{Variant, compile, library, root, scratch};
 use glam::DVec3;
 use hapflow::engine::{Scene, Session, SessionOptions, Value, load, settings};
@@ -16,15 +16,27 @@ use std::path::Path;
 use std::process::Command;
 
 #[test]
-fn the_header_is_clean_alone_and_included_twice_in_c_and_in_cpp() {
-    let source = scratch().join("header.c");
-    fs::write(&source, "#include <hapflow/hapflow.h>\n#include <hapflow/hapflow.h>\nint hapflow_unused;\n")
-        .unwrap();
-    for (compiler, standard, language) in [("cc", "c11", "c"), ("cc", "c17", "c"), ("c++", "c++17", "c++")] {
-        let args = ["-fsyntax-only", "-x", language].map(OsStr::new);
-        let said = compile(compiler, standard, &[args[0], args[1], args[2], source.as_os_str()]);
-        said.unwrap_or_else(|e| panic!("{standard}: {e}"));
+fn each_header_is_clean_alone_and_included_twice_in_c_and_in_cpp() {
+    for name in header::there() {
+        let source = scratch().join(format!("header-{name}.c"));
+        let include = format!("#include <hapflow/{name}.h>\n");
+        fs::write(&source, format!("{include}{include}int hapflow_unused;\n")).unwrap();
+        for (compiler, standard, language) in
+            [("cc", "c11", "c"), ("cc", "c17", "c"), ("c++", "c++17", "c++")]
+        {
+            let args = ["-fsyntax-only", "-x", language].map(OsStr::new);
+            let said = compile(compiler, standard, &[args[0], args[1], args[2], source.as_os_str()]);
+            said.unwrap_or_else(|e| panic!("{name}.h, {standard}: {e}"));
+        }
     }
+}
+
+#[test]
+fn hapflow_h_includes_every_other_header() {
+    let mut all = header::included();
+    all.push("hapflow".into());
+    all.sort();
+    assert_eq!(all, header::there());
 }
 
 #[test]

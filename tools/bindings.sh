@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes the header's types, numbers and prototypes in Rust, for crates/capi to be checked against:
+# Writes the headers' types, numbers and prototypes in Rust, for crates/capi to be checked against:
 #
 #     tools/bindings.sh            writes crates/capi/src/generated.rs
 #     tools/bindings.sh --check    fails if that file is not what the header says
@@ -16,6 +16,7 @@ bindgen=${BINDGEN:-bindgen}
 generate() {
     # C11 has no fixed width for enumerations, so that these are plain numbers; a formatter of its own makes the
     # result the same whichever rustfmt there is.
+    # hapflow.h includes all others.
     "$bindgen" include/hapflow/hapflow.h \
         --allowlist-item '(hapflow|HAPFLOW)_.*' \
         --rust-target 1.85 --rust-edition 2024 --use-core \
@@ -23,7 +24,7 @@ generate() {
         --formatter prettyplease --disable-header-comment \
         --raw-line '//! The header in Rust, by tools/bindings.sh: not to be edited.' \
         --raw-line '#![allow(dead_code, non_camel_case_types, clippy::all)]' \
-        -- -std=c11 |
+        -- -std=c11 -Iinclude |
         # Sizes and offsets are those of 64-bit processors.
         sed 's/^const _: () = {/#[cfg(target_pointer_width = "64")]\n&/'
 }

@@ -1,14 +1,34 @@
-//! The header, read as far as the tests need it.
+//! The headers, read as far as the tests need it.
 
 use super::root;
 use std::fs;
 
-/// The header's text.
-pub fn text() -> String {
-    fs::read_to_string(root().join("include/hapflow/hapflow.h")).unwrap()
+/// A header of the interface, by its name without `.h`.
+fn read(name: &str) -> String {
+    fs::read_to_string(root().join(format!("include/hapflow/{name}.h"))).unwrap()
 }
 
-/// A function of the header.
+/// Names of all headers that `hapflow.h` includes, in its order.
+pub fn included() -> Vec<String> {
+    let name = |line: &str| Some(line.strip_prefix("#include <hapflow/")?.strip_suffix(".h>")?.to_string());
+    read("hapflow").lines().filter_map(name).collect()
+}
+
+/// Names of all headers that there are, sorted.
+pub fn there() -> Vec<String> {
+    let name = |file: fs::DirEntry| Some(file.file_name().to_str()?.strip_suffix(".h")?.to_string());
+    let folder = fs::read_dir(root().join("include/hapflow")).unwrap();
+    let mut names: Vec<_> = folder.filter_map(|file| name(file.unwrap())).collect();
+    names.sort();
+    names
+}
+
+/// The text of all headers that `hapflow.h` includes, in its order.
+pub fn text() -> String {
+    included().iter().map(|name| read(name)).collect()
+}
+
+/// A function of a header.
 pub struct Prototype {
     pub name: String,
     /// As it is declared, on one line, without what marks it as exported.
@@ -17,7 +37,7 @@ pub struct Prototype {
     pub comment: String,
 }
 
-/// A struct of the header.
+/// A struct of a header.
 pub struct Struct {
     pub name: String,
     /// Names of its fields, in order.

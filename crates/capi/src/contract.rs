@@ -137,6 +137,8 @@ functions! {
     config::hapflow_session_config_init(_, _);
     session::hapflow_session_create(_, _);
     session::hapflow_session_destroy(_);
+    session::hapflow_session_emergency_stop(_);
+    session::hapflow_session_clear_faults(_);
     session::hapflow_session_set(_, _, _);
     session::hapflow_session_set_vector(_, _, _);
     session::hapflow_session_set_text(_, _, _);
@@ -145,8 +147,6 @@ functions! {
     setting_info::hapflow_setting_info_init(_, _);
     session::hapflow_session_setting_count(_, _);
     session::hapflow_session_setting_info(_, _, _);
-    session::hapflow_session_emergency_stop(_);
-    session::hapflow_session_clear_faults(_);
     tool_state::hapflow_tool_state_init(_, _);
     session::hapflow_session_tool_count(_, _);
     servo::hapflow_servo_tick(_, _, _);

@@ -3,8 +3,8 @@
 
 pub const HAPFLOW_ABI_VERSION: u32 = 1;
 pub const HAPFLOW_MAX_SESSIONS: u32 = 64;
-pub const HAPFLOW_MAX_TOOLS: u32 = 8;
 pub const HAPFLOW_KIND_SESSION_CONFIG: u32 = 1;
+pub const HAPFLOW_MAX_TOOLS: u32 = 8;
 pub type hapflow_result = i32;
 pub const HAPFLOW_OK: _bindgen_ty_1 = 0;
 pub const HAPFLOW_REMARK_FORCE_HELD: _bindgen_ty_1 = 1;
@@ -466,6 +466,8 @@ unsafe extern "C" {
         session: *mut hapflow_session,
     ) -> hapflow_result;
     pub fn hapflow_session_destroy(session: hapflow_session) -> hapflow_result;
+    pub fn hapflow_session_emergency_stop(session: hapflow_session) -> hapflow_result;
+    pub fn hapflow_session_clear_faults(session: hapflow_session) -> hapflow_result;
     pub fn hapflow_session_set(
         session: hapflow_session,
         path: *const ::core::ffi::c_char,
@@ -506,8 +508,6 @@ unsafe extern "C" {
         index: u32,
         info: *mut hapflow_setting_info,
     ) -> hapflow_result;
-    pub fn hapflow_session_emergency_stop(session: hapflow_session) -> hapflow_result;
-    pub fn hapflow_session_clear_faults(session: hapflow_session) -> hapflow_result;
     pub fn hapflow_tool_state_init(
         state: *mut hapflow_tool_state,
         size: u32,

@@ -1,4 +1,4 @@
-//! The C ABI of hapflow. `include/hapflow/hapflow.h` is the contract; what stands here keeps it.
+//! The C ABI of hapflow. `include/hapflow/` is the contract; what stands here keeps it.
 //!
 //! A function of the header is a check, a conversion, one call of the engine, and a conversion back:
 //!

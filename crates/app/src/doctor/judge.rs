@@ -5,7 +5,7 @@ use super::timer::Lateness;
 use hapflow_realtime::{Grant, Refusal};
 use std::path::{Path, PathBuf};
 
-/// The version of the C ABI, `HAPFLOW_ABI_VERSION` in `include/hapflow/hapflow.h`.
+/// The version of the C ABI, `HAPFLOW_ABI_VERSION` in `include/hapflow/version.h`.
 pub const C_ABI: u32 = 1;
 /// Ticks later than this at 99 % are a warning, µs: half a tick, which a run counts as late.
 const LATE_US: f64 = 500.0;
