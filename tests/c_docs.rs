@@ -6,7 +6,9 @@
 mod c_support;
 
 use c_support::header::{Prototype, prototypes};
-use c_support::{Api, DRIVE_OWNED, Session, SessionConfig, ToolState, Variant, Wrench, code, made, root};
+use c_support::{
+    Api, DRIVE_OWNED, Device, Session, SessionConfig, ToolState, Variant, Wrench, code, made, root,
+};
 use std::ffi::CStr;
 use std::ptr::{null, null_mut};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -63,6 +65,20 @@ fn create(api: &Api, spoil: fn(&mut SessionConfig)) -> Came {
     let mut config = SessionConfig { scene: c"tap".as_ptr(), ..api.config() };
     spoil(&mut config);
     ((api.session_create)(&config, &mut Session::default()), None)
+}
+
+fn null_device(api: &Api) -> Device {
+    api.open(c"null", c"").unwrap()
+}
+
+fn with_devices(api: &Api, servo_drive: u32, devices: &[Device]) -> Came {
+    with_devices_in(api, c_support::JET, servo_drive, devices)
+}
+
+fn with_devices_in(api: &Api, toml: &str, servo_drive: u32, devices: &[Device]) -> Came {
+    let (device_count, devices) = (devices.len() as u32, devices.as_ptr());
+    let config = SessionConfig { servo_drive, device_count, devices, ..api.config() };
+    (api.try_create_with(toml, config).err().unwrap_or(code::OK), None)
 }
 
 fn set_text(api: &Api, session: Session, path: &CStr, value: &CStr) -> Came {
@@ -188,6 +204,80 @@ const MISTAKES: &[Mistake] = &[
             let owned = SessionConfig { fluid_drive: DRIVE_OWNED, ..api.config() };
             let session = api.try_create_with(c_support::JET, owned).unwrap();
             ((api.fluid_advance)(session, 0.15), None)
+        },
+    },
+    Mistake {
+        what: "the host ticks a servo that the session ticks",
+        make: |api, _| {
+            let owned = SessionConfig { servo_drive: DRIVE_OWNED, ..api.config() };
+            let session = api.try_create_with(c_support::JET, owned).unwrap();
+            tick(api, session, |_| ())
+        },
+    },
+    Mistake {
+        what: "a device for a servo that the host ticks",
+        make: |api, _| with_devices(api, 0, &[null_device(api)]),
+    },
+    Mistake {
+        what: "more devices than the scene has tools",
+        make: |api, _| with_devices(api, DRIVE_OWNED, &[null_device(api), null_device(api)]),
+    },
+    Mistake {
+        what: "one device for two tools",
+        make: |api, _| {
+            let device = null_device(api);
+            let toml = format!("{}{}", c_support::JET, c_support::SECOND);
+            with_devices_in(api, &toml, DRIVE_OWNED, &[device, device])
+        },
+    },
+    Mistake {
+        what: "a device that a session has taken over",
+        make: |api, _| {
+            let device = null_device(api);
+            assert_eq!(with_devices(api, DRIVE_OWNED, &[device]).0, code::OK);
+            ((api.device_read)(device, 0.0, &mut made(api.tool_state_init)), None)
+        },
+    },
+    Mistake {
+        what: "a device that there is not",
+        make: |api, _| (api.open(c"falcn", c"").unwrap_err(), None),
+    },
+    Mistake {
+        what: "a device is closed twice",
+        make: |api, _| {
+            let device = null_device(api);
+            assert_eq!((api.device_close)(device), code::OK);
+            ((api.device_close)(device), None)
+        },
+    },
+    Mistake {
+        what: "a device is read at a time before its last",
+        make: |api, _| {
+            let device = null_device(api);
+            api.read(device, 1.0);
+            ((api.device_read)(device, 0.9, &mut made(api.tool_state_init)), None)
+        },
+    },
+    Mistake {
+        what: "a wrench that is NaN is written to a device",
+        make: |api, _| {
+            let wrench = Wrench { force: [f64::NAN; 3], ..Wrench::ZERO };
+            ((api.device_write)(null_device(api), &wrench, 1e-3), None)
+        },
+    },
+    Mistake {
+        what: "a write to a device after such a one",
+        make: |api, _| {
+            let device = null_device(api);
+            assert_eq!((api.device_write)(device, null(), 1e-3), code::NULL);
+            ((api.device_write)(device, &Wrench::ZERO, 1e-3), None)
+        },
+    },
+    Mistake {
+        what: "one device more than `HAPFLOW_MAX_DEVICES`",
+        make: |api, _| {
+            let last = std::iter::repeat_with(|| api.open(c"null", c"")).take(65).last();
+            (last.unwrap().unwrap_err(), None)
         },
     },
     Mistake {

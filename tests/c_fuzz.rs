@@ -5,7 +5,9 @@
 
 mod c_support;
 
-use c_support::{Api, DRIVE_OWNED, JET, Random, Session, SessionConfig, ToolState, Variant, Wrench, code};
+use c_support::{
+    Api, DRIVE_OWNED, Device, JET, Random, Session, SessionConfig, ToolState, Variant, Wrench, code,
+};
 use std::ffi::{CString, c_char};
 use std::ptr::{null, null_mut};
 
@@ -85,6 +87,7 @@ struct Fuzz {
     random: Random,
     sessions: Vec<Session>,
     stale: Vec<Session>,
+    devices: Vec<Device>,
     tick: u64,
     memory: Vec<u8>,
     /// How often each result came.
@@ -94,8 +97,8 @@ struct Fuzz {
 impl Fuzz {
     fn new(seed: u64) -> Self {
         let (api, random) = (Api::load(Variant::Shipped), Random(seed));
-        let (sessions, stale, memory) = (Vec::new(), Vec::new(), vec![GUARD; ROOM + 16]);
-        Self { api, random, sessions, stale, tick: 0, memory, results: Default::default() }
+        let (sessions, stale, devices, memory) = (Vec::new(), Vec::new(), Vec::new(), vec![GUARD; ROOM + 16]);
+        Self { api, random, sessions, stale, devices, tick: 0, memory, results: Default::default() }
     }
 
     fn session(&mut self) -> Session {
@@ -106,6 +109,14 @@ impl Fuzz {
             2 if !self.stale.is_empty() => *random.of(&self.stale),
             _ if self.sessions.is_empty() => Session::default(),
             _ => *random.of(&self.sessions),
+        }
+    }
+
+    fn device(&mut self) -> Device {
+        match self.random.below(8) {
+            0 => Device { id: self.random.below(70) | self.random.below(4) << 32 },
+            _ if self.devices.is_empty() => Device::default(),
+            _ => *self.random.of(&self.devices),
         }
     }
 
@@ -207,6 +218,9 @@ impl Fuzz {
             7 => config.settings = self.path(),
             8 => config.settings = c"run.fluid_hz = 60\n\n# x\nfluid.viscosity=1".as_ptr(),
             9..=12 => config.fluid_drive = DRIVE_OWNED,
+            13 => config.servo_drive = 2,
+            14 => config.device_count = 1,
+            15 => (config.servo_drive, config.device_count) = (DRIVE_OWNED, 1),
             _ => {}
         }
         if config.toml_length == 1 {
@@ -238,6 +252,37 @@ impl Fuzz {
         result
     }
 
+    /// A device is opened, used or closed.
+    fn use_device(&mut self) -> i32 {
+        let (api, device) = (self.api, self.device());
+        self.memory.fill(GUARD);
+        match self.random.below(8) {
+            0 if self.devices.len() < 4 => match api.open(c"hand", c"") {
+                Ok(device) => {
+                    self.devices.push(device);
+                    code::OK
+                }
+                Err(failed) => failed,
+            },
+            0 if self.random.below(4) == 0 => {
+                self.devices.retain(|d| *d != device);
+                (api.device_close)(device)
+            }
+            1 => (api.device_clear_faults)(device),
+            2 => {
+                let size = self.struct_size(136).to_ne_bytes();
+                self.memory[..4].copy_from_slice(&size);
+                (api.device_read)(device, self.tick as f64 * 1e-3, self.memory.as_mut_ptr().cast())
+            }
+            3 => (api.device_read)(device, self.number(), self.place()),
+            _ => {
+                let wrench = Wrench { force: [self.number(); 3], torque: [self.number(); 3] };
+                let from = if self.random.below(10) == 0 { null() } else { &raw const wrench };
+                (api.device_write)(device, from, if self.random.below(2) == 0 { 1e-3 } else { self.number() })
+            }
+        }
+    }
+
     fn get(&mut self) -> i32 {
         let (session, path, mut number) = (self.session(), self.path(), 7.0);
         let result = (self.api.session_get)(session, path, &mut number);
@@ -248,8 +293,8 @@ impl Fuzz {
     fn init(&mut self) -> i32 {
         let api = self.api;
         self.memory.fill(GUARD);
-        let which = self.random.below(6);
-        let right = [56, 136, 280, 32, 40, 80][which as usize];
+        let which = self.random.below(8);
+        let right = [72, 136, 280, 32, 40, 56, 72, 80][which as usize];
         let size = self.struct_size(right);
         match which {
             0 => (api.session_config_init)(self.place(), size),
@@ -257,6 +302,8 @@ impl Fuzz {
             2 => (api.report_init)(self.place(), size),
             3 => (api.scene_info_init)(self.place(), size),
             4 => (api.device_info_init)(self.place(), size),
+            5 => (api.device_config_init)(self.place(), size),
+            6 => (api.servo_pace_init)(self.place(), size),
             _ => (api.setting_info_init)(self.place(), size),
         }
     }
@@ -270,18 +317,19 @@ impl Fuzz {
             let size = self.struct_size(280).to_ne_bytes();
             self.memory[..4].copy_from_slice(&size);
         }
-        match self.random.below(4) {
+        match self.random.below(5) {
             0 if index < 50 => (api.session_report)(session, self.place()),
             0 => (api.session_report_of)(session, index % 3, self.place()),
             1 => (api.scene_get)(index % 6, self.place()),
             2 => (api.device_get)(index % 5, self.place()),
+            3 => (api.session_servo_pace)(session, index % 3, self.place()),
             _ => (api.session_setting_info)(session, index, self.place()),
         }
     }
 
     fn call(&mut self) -> i32 {
         let (api, session) = (self.api, self.session());
-        match self.random.below(32) {
+        match self.random.below(36) {
             0 => (api.negotiate)(self.random.below(3) as u32, self.random.below(3) as u32, self.place()),
             1 => self.create(),
             2 if self.random.below(6) == 0 => self.destroy(),
@@ -320,6 +368,7 @@ impl Fuzz {
             }
             23 if self.random.below(2) == 0 => (api.obstacle_count)(session, self.place()),
             23 => (api.obstacle_publish)(session),
+            24..28 => self.use_device(),
             _ => self.tick(),
         }
     }
@@ -328,7 +377,7 @@ impl Fuzz {
         for n in 0..calls {
             let result = self.call();
             // A panic is caught, but is a defect all the same.
-            let known = (code::DRIVE..=code::MORE).contains(&result);
+            let known = (code::DEVICE..=code::MORE).contains(&result);
             assert!(known && ![code::PANIC, code::FAULTED].contains(&result), "call {n}: {result}");
             *self.results.entry(result).or_default() += 1;
         }
@@ -342,9 +391,16 @@ fn twenty_thousand_random_calls_do_no_harm() {
         let mut fuzz = Fuzz::new(seed);
         fuzz.run(calls / 2);
         // All that can come in one thread has come: the calls got somewhere.
-        let rare =
-            [code::PANIC, code::NOT_NEGOTIATED, code::BUSY, code::FULL, code::NOT_FOUND, code::FAULTED];
-        let missing: Vec<_> = (code::DRIVE..=code::MORE)
+        let rare = [
+            code::PANIC,
+            code::NOT_NEGOTIATED,
+            code::BUSY,
+            code::FULL,
+            code::NOT_FOUND,
+            code::FAULTED,
+            code::DEVICE,
+        ];
+        let missing: Vec<_> = (code::DEVICE..=code::MORE)
             .filter(|r| !rare.contains(r) && !fuzz.results.contains_key(r))
             .collect();
         assert!(missing.is_empty(), "seed {seed}: never came: {missing:?} of {:?}", fuzz.results);

@@ -1,4 +1,4 @@
-//! A thousand sessions of the C interface, one after the other. Alone in its process, whose memory it looks at.
+//! A thousand sessions and devices of the C interface, one after the other. Alone in its process, whose memory it looks at.
 // A test's helpers fail as the test does.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -18,8 +18,10 @@ fn a_thousand_sessions_come_and_go_and_leave_nothing() {
     let api = Api::ready(Variant::Shipped);
     let mut before = 0;
     for n in 0..1000 {
+        let device = api.open(c"hand", c"").unwrap();
         let session = api.jet();
         api.run(session, 0, 2);
+        assert_eq!((api.device_close)(device), code::OK);
         assert!(api.settings(session).len() > 60);
         assert_eq!((api.session_destroy)(session), code::OK);
         assert_eq!(api.tick(session, &api.state(3)), (code::HANDLE, Wrench::ZERO));
@@ -28,5 +30,5 @@ fn a_thousand_sessions_come_and_go_and_leave_nothing() {
         }
     }
     let grown = resident_kib().saturating_sub(before);
-    assert!(grown < 4 << 10, "{grown} KiB more after 900 sessions");
+    assert!(grown < 4 << 10, "{grown} KiB more after 900 sessions and devices");
 }

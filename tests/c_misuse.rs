@@ -5,7 +5,8 @@
 mod c_support;
 
 use c_support::{
-    Api, JET, PLATE, Random, Report, SECOND, Session, SessionConfig, ToolState, Variant, Wrench, code, made,
+    Api, Device, JET, PLATE, Random, Report, SECOND, Session, SessionConfig, ToolState, Variant, Wrench,
+    code, made,
 };
 use hapflow::engine::parse;
 use hapflow::engine::run::{RunOptions, virtual_clock};
@@ -64,6 +65,9 @@ fn null_pointers_are_refused_and_outputs_stay() {
     assert_eq!((api.session_report)(session, null_mut()), code::NULL);
     assert_eq!((api.session_report_of)(session, 0, null_mut()), code::NULL);
     assert_eq!((api.session_tool_count)(session, null_mut()), code::NULL);
+    assert_eq!((api.session_servo_pace)(session, 0, null_mut()), code::NULL);
+    assert_eq!((api.servo_pace_init)(null_mut(), 72), code::NULL);
+    assert_eq!((api.device_config_init)(null_mut(), 56), code::NULL);
     assert_eq!((api.obstacle_count)(session, null_mut()), code::NULL);
     assert_eq!((api.obstacle_move)(session, 0, null(), &[0.0; 4]), code::NULL);
     assert_eq!((api.obstacle_move)(session, 0, &[0.0; 3], null()), code::NULL);
@@ -99,6 +103,12 @@ fn stale_and_doubled_handles_are_codes() {
         assert_eq!((api.session_report)(handle, null_mut()), code::HANDLE);
         assert_eq!((api.session_report_of)(handle, 1, null_mut()), code::HANDLE);
         assert_eq!((api.session_tool_count)(handle, null_mut()), code::HANDLE);
+        assert_eq!((api.session_servo_pace)(handle, 0, null_mut()), code::HANDLE);
+        let device = Device { id: handle.id };
+        assert_eq!((api.device_read)(device, 0.0, null_mut()), code::HANDLE);
+        assert_eq!((api.device_write)(device, null(), 1e-3), code::HANDLE);
+        assert_eq!((api.device_clear_faults)(device), code::HANDLE);
+        assert_eq!((api.device_close)(device), code::HANDLE);
         assert_eq!((api.obstacle_count)(handle, null_mut()), code::HANDLE);
         assert_eq!((api.obstacle_move)(handle, 0, null(), null()), code::HANDLE);
         assert_eq!((api.obstacle_publish)(handle), code::HANDLE);
@@ -463,6 +473,8 @@ fn init_at_every_size<T>(first: usize, init: extern "C" fn(*mut T, u32) -> i32) 
 fn every_init_function_takes_newer_sizes_and_writes_no_further() {
     let api = ready();
     init_at_every_size(56, api.session_config_init);
+    init_at_every_size(56, api.device_config_init);
+    init_at_every_size(72, api.servo_pace_init);
     init_at_every_size(136, api.tool_state_init);
     init_at_every_size(280, api.report_init);
     init_at_every_size(32, api.scene_info_init);
@@ -474,15 +486,22 @@ fn every_init_function_takes_newer_sizes_and_writes_no_further() {
 fn a_configuration_of_a_newer_header_is_taken_if_it_asks_for_nothing_new() {
     let api = ready();
     let toml = CString::new(JET).unwrap();
-    for (size, last, expected) in
-        [(64, 0, code::OK), (4096, 0, code::OK), (64, 1, code::UNSUPPORTED), (4096, 1, code::UNSUPPORTED)]
-    {
+    // One of the first header has 56 bytes, and something else of the program behind them.
+    let newer = size_of::<SessionConfig>() as u32 + 8;
+    for (size, last, expected) in [
+        (56, u64::MAX, code::OK),
+        (newer, 0, code::OK),
+        (4096, 0, code::OK),
+        (newer, 1, code::UNSUPPORTED),
+        (4096, 1, code::UNSUPPORTED),
+    ] {
         let mut memory = [0_u64; 512];
         let config: *mut SessionConfig = memory.as_mut_ptr().cast();
         assert_eq!((api.session_config_init)(config, size), code::OK);
         // SAFETY: the memory is larger than the struct.
         unsafe { (*config).toml = toml.as_ptr() };
-        memory[size as usize / 8 - 1] = last;
+        let at = if size == 56 { 7 } else { size as usize / 8 - 1 };
+        memory[at] = last;
         let mut session = Session::default();
         assert_eq!((api.session_create)(memory.as_ptr().cast(), &mut session), expected, "{size}");
     }

@@ -158,7 +158,11 @@ fn owned_threads_run_and_stop() {
     }
     session.request_particles();
     assert!(session.realtime_status().is_some() && session.servo_runs());
-    session.close();
+    let told = session.servo_pace(0).unwrap();
+    assert!(told.runs && session.servo_pace(1).is_none());
+    let (ticks, _) = session.close();
+    assert!(ticks.count() >= told.ticks.count() && ticks.count() == session.report().tick);
+    assert!(ticks.longest_ns as f64 * 1e-9 >= ticks.quantile_s(0.1) - 1e-7);
     assert!(session.fluid_report().frame > 0);
     assert!(!session.servo_runs());
 }

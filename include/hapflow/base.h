@@ -3,14 +3,15 @@
  * Every function says how it may be called, with one of these classes:
  *
  *     [main]      may block and allocate. One thread at a time a session; it need not always be the same.
- *     [servo]     wait-free: no lock, no allocation, no system call, no log. One thread at a time a tool.
+ *     [servo]     wait-free: no lock, no allocation, no system call, no log. One thread at a time a tool or device.
  *     [fluid]     computes, for milliseconds. One thread at a time a session.
  *     [obstacle]  wait-free, as [servo]. One thread at a time a session.
  *     [any]       lock-free, by any number of threads at once.
  *
  * Functions of different classes may run at the same time on the same session, and so may ticks of different tools.
- * Two threads in functions of one class and session ([any] apart), or in ticks of one tool, are an error of the host
- * that is found: the second gets HAPFLOW_ERROR_BUSY, and zero force. Different sessions know nothing of each other.
+ * Two threads in functions of one class and session ([any] apart), in ticks of one tool, or with one device, are an
+ * error of the host that is found: the second gets HAPFLOW_ERROR_BUSY, and zero force. Different sessions know nothing
+ * of each other.
  *
  * Rules for all functions
  * -----------------------

@@ -16,7 +16,8 @@
  *     hapflow_session_destroy(session);
  *
  * With config.fluid_drive = HAPFLOW_DRIVE_OWNED the session steps the fluid in a thread of its own, which keeps the
- * time of the ticks: the loop is then hapflow_servo_tick alone.
+ * time of the ticks: the loop is then hapflow_servo_tick alone. With config.servo_drive = HAPFLOW_DRIVE_OWNED it ticks
+ * the servo as well, in a real-time thread for each device.
  *
  * Each noun has a header of its own, and may be included by itself; base.h has what holds for all of them: thread
  * classes, results, pointers, structs.

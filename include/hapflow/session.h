@@ -2,14 +2,14 @@
 #ifndef HAPFLOW_SESSION_H
 #define HAPFLOW_SESSION_H
 
-#include <hapflow/result.h>
+#include <hapflow/device.h>
 
 HAPFLOW_BEGIN_DECLS
 
 /* Sessions at once in a process. */
 #define HAPFLOW_MAX_SESSIONS 64u
 
-/* A session: a scene, its fluid and its tools. The host ticks the servo; it steps the fluid, or the session does. */
+/* A session: a scene, its fluid and its tools. Host or session tick the servo, and host or session step the fluid. */
 typedef struct hapflow_session {
     uint64_t id; /* 0: no session */
 } hapflow_session;
@@ -17,12 +17,19 @@ HAPFLOW_ASSERT_SIZE(hapflow_session, 8);
 
 #define HAPFLOW_KIND_SESSION_CONFIG 1u
 
-/* Who steps the fluid: hapflow_session_config.fluid_drive. */
+/* Who drives a half of a session, in any combination: hapflow_session_config.servo_drive and .fluid_drive.
+ *
+ * OWNED, of the servo: a real-time thread for each device reads it, ticks its tool and writes the force, at 1 kHz from
+ * the session's creation on; hapflow_servo_tick is refused (HAPFLOW_ERROR_DRIVE). The session's clock then begins at
+ * its creation, and the newest time on it is hapflow_report.time_s. A thread ends when its device is lost, or in a
+ * panic, with zero force and the fault latched. hapflow_session_servo_pace says how they keep time.
+ *
+ * OWNED, of the fluid: a thread steps it, once a fluid frame on the servo's clock. With a servo of the host that is the
+ * time of its ticks: without ticks it stands still. Frames that it is too slow for are left out. It is as fast as the
+ * machine, so that no run is quite another's. */
 enum {
-    HAPFLOW_DRIVE_HOST = 0, /* the host, by hapflow_fluid_advance or hapflow_fluid_step */
-    /* A thread of the session, once a fluid frame on the clock that the ticks move on: without ticks it stands still.
-     * Frames that it is too slow for are left out. It is as fast as the machine, so that no run is quite another's. */
-    HAPFLOW_DRIVE_OWNED = 1,
+    HAPFLOW_DRIVE_HOST = 0, /* the host: hapflow_servo_tick; hapflow_fluid_advance or hapflow_fluid_step */
+    HAPFLOW_DRIVE_OWNED = 1, /* threads of the session */
 };
 
 /* How a session is made. Exactly one of `scene` and `toml` is given. */
@@ -36,9 +43,16 @@ typedef struct hapflow_session_config {
     const char* settings; /* lines `path = value` that are set on top, as "fluid.viscosity = 0.1\n"; or null */
     uint32_t threads; /* worker threads of the fluid, to 1024; 0: all cores but one. Results do not depend on it */
     uint32_t fluid_drive; /* HAPFLOW_DRIVE_...; HOST by default */
+    uint32_t servo_drive; /* HAPFLOW_DRIVE_...; HOST by default */
+    uint32_t device_count; /* how many `devices`: 0 with a servo of the host, else to the scene's number of tools */
+    /* Devices of an owned servo, in the order of the tools; a tool without one stays where it is. The session takes
+     * them over, with no force on them, and closes them in the end: their handles are stale from then on. (If it cannot
+     * be made they stay as they were; but where the system starts no thread they are closed.) With a count of 0 it is
+     * not looked at, and the device of the scene, as run.device has it, is opened for the first tool. */
+    const hapflow_device* devices;
 } hapflow_session_config;
 #if UINTPTR_MAX > 0xffffffffu
-HAPFLOW_ASSERT_SIZE(hapflow_session_config, 56);
+HAPFLOW_ASSERT_SIZE(hapflow_session_config, 72);
 #endif
 
 /* Fills `config` with the defaults, for a struct of `size` bytes: sizeof *config. [any] Errors: NULL, STRUCT. */
@@ -46,11 +60,13 @@ HAPFLOW_API hapflow_result hapflow_session_config_init(hapflow_session_config* c
 
 /* Makes a session. [main, several at once] Takes milliseconds to seconds, as the scene has particles. The host owns
  * the session, and destroys it.
- * Errors: NOT_NEGOTIATED, NULL, STRUCT, UNSUPPORTED, TEXT, SCENE, NOT_FOUND, SETTING, VALUE, FULL. */
+ * Errors: NOT_NEGOTIATED, NULL, STRUCT, UNSUPPORTED, TEXT, SCENE, NOT_FOUND, SETTING, VALUE, FULL, HANDLE (of a
+ * device), DEVICE. */
 HAPFLOW_API hapflow_result hapflow_session_create(const hapflow_session_config* config, hapflow_session* session);
 
-/* Ends a session; its handle is stale from then on. [main, several at once] Calls of other threads that are under
- * way are waited for; later ones are refused. Errors: HANDLE. */
+/* Ends a session; its handle is stale from then on. [main, several at once] Threads of its own end first, the servos
+ * before the fluid, with zero force on their devices. Calls of other threads that are under way are waited for; later
+ * ones are refused. Errors: HANDLE. */
 HAPFLOW_API hapflow_result hapflow_session_destroy(hapflow_session session);
 
 /* No force on any tool from its next tick on, until the faults are cleared. [any] Errors: HANDLE. */

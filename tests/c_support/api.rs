@@ -23,6 +23,44 @@ pub struct SessionConfig {
     pub settings: *const c_char,
     pub threads: u32,
     pub fluid_drive: u32,
+    pub servo_drive: u32,
+    pub device_count: u32,
+    pub devices: *const Device,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Device {
+    pub id: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct DeviceConfig {
+    pub kind: u32,
+    pub size: u32,
+    pub next: *const c_void,
+    pub name: *const c_char,
+    pub scene: *const c_char,
+    pub toml: *const c_char,
+    pub toml_length: usize,
+    pub settings: *const c_char,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct ServoPace {
+    pub size: u32,
+    pub owned: u32,
+    pub running: u32,
+    pub priority: u32,
+    pub ticks: u64,
+    pub late: u64,
+    pub median_s: f64,
+    pub p99_s: f64,
+    pub longest_s: f64,
+    pub priority_text: *const c_char,
+    pub device: *const c_char,
 }
 
 #[repr(C)]
@@ -159,6 +197,14 @@ functions! {
     device_info_init: fn(*mut DeviceInfo, u32) -> i32;
     device_count: fn() -> u32;
     device_get: fn(u32, *mut DeviceInfo) -> i32;
+    device_config_init: fn(*mut DeviceConfig, u32) -> i32;
+    device_open: fn(*const DeviceConfig, *mut Device) -> i32;
+    device_close: fn(Device) -> i32;
+    device_read: fn(Device, f64, *mut ToolState) -> i32;
+    device_write: fn(Device, *const Wrench, f64) -> i32;
+    device_clear_faults: fn(Device) -> i32;
+    servo_pace_init: fn(*mut ServoPace, u32) -> i32;
+    session_servo_pace: fn(Session, u32, *mut ServoPace) -> i32;
     setting_info_init: fn(*mut SettingInfo, u32) -> i32;
     session_setting_count: fn(Session, *mut u32) -> i32;
     session_setting_info: fn(Session, u32, *mut SettingInfo) -> i32;
@@ -223,6 +269,30 @@ impl Api {
     /// A session of [`JET`].
     pub fn jet(&self) -> Session {
         self.try_create(JET).unwrap_or_else(|c| panic!("{c}: {}", self.error()))
+    }
+
+    /// Opens a device by its name, with these settings.
+    pub fn open(&self, name: &CStr, settings: &CStr) -> Result<Device, i32> {
+        let (name, settings) = (name.as_ptr(), settings.as_ptr());
+        let config = DeviceConfig { name, settings, ..made(self.device_config_init) };
+        let mut device = Device::default();
+        match (self.device_open)(&config, &mut device) {
+            code::OK => Ok(device),
+            failed => Err(failed),
+        }
+    }
+
+    /// Where a device is.
+    pub fn read(&self, device: Device, time_s: f64) -> ToolState {
+        let mut state = made(self.tool_state_init);
+        assert_eq!((self.device_read)(device, time_s, &mut state), code::OK);
+        state
+    }
+
+    pub fn pace(&self, session: Session, tool: u32) -> ServoPace {
+        let mut pace = made(self.servo_pace_init);
+        assert_eq!((self.session_servo_pace)(session, tool, &mut pace), code::OK);
+        pace
     }
 
     /// A tool at rest in the origin, at tick `n`.

@@ -7,7 +7,8 @@ pub mod header;
 mod random;
 
 pub use api::{
-    Api, DeviceInfo, Report, SceneInfo, Session, SessionConfig, SettingInfo, ToolState, Wrench, made, shown,
+    Api, Device, DeviceConfig, DeviceInfo, Report, SceneInfo, ServoPace, Session, SessionConfig, SettingInfo,
+    ToolState, Wrench, made, shown,
 };
 pub use build::{Variant, compile, library, root, scratch};
 pub use random::Random;
@@ -40,9 +41,10 @@ pub mod code {
     pub const FAULTED: i32 = -19;
     pub const INDEX: i32 = -20;
     pub const DRIVE: i32 = -21;
+    pub const DEVICE: i32 = -22;
 }
 
-/// `hapflow_session_config.fluid_drive`: the session steps its fluid itself.
+/// `hapflow_session_config.fluid_drive` or `.servo_drive`: the session drives that half itself.
 pub const DRIVE_OWNED: u32 = 1;
 
 /// A jet in closed form on a ball at rest: a force at no cost.

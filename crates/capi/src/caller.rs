@@ -22,6 +22,15 @@ pub unsafe trait Record: Copy {
     const FIRST_SIZE: usize;
 }
 
+/// What never grows.
+///
+/// # Safety
+/// Any bits are a value.
+pub unsafe trait Plain: Copy {}
+
+// SAFETY: as the trait asks.
+unsafe impl<const N: usize> Plain for [f64; N] {}
+
 /// A struct that is read.
 #[repr(transparent)]
 #[derive(Clone, Copy)]
@@ -68,14 +77,26 @@ impl<T: Record> In<T> {
     }
 }
 
-impl<const N: usize> In<[f64; N]> {
-    /// Reads an array.
-    pub fn array(self) -> Result<[f64; N], Code> {
+impl<T: Plain> In<T> {
+    /// None.
+    pub const NULL: Self = Self(std::ptr::null());
+
+    /// Reads it whole: what never grows.
+    pub fn whole(self) -> Result<T, Code> {
         if self.0.is_null() {
             return Err(Code::ERROR_NULL);
         }
-        // SAFETY: not null, hence `N` numbers.
+        // SAFETY: not null, hence a `T`.
         Ok(unsafe { self.0.read_unaligned() })
+    }
+
+    /// Reads the `count` of them that are there.
+    pub fn several(self, count: usize) -> Result<Vec<T>, Code> {
+        if self.0.is_null() {
+            return Err(Code::ERROR_NULL);
+        }
+        // SAFETY: not null, hence `count` of `T`.
+        Ok((0..count).map(|at| unsafe { self.0.add(at).read_unaligned() }).collect())
     }
 }
 
@@ -100,6 +121,11 @@ impl<T: Record> Out<T> {
     /// Refuses null, and a size that cannot be, before any work is done.
     pub fn check_record(self) -> Result<(), Code> {
         said_size::<T>(self.0.cast()).map(drop)
+    }
+
+    /// Reads what is there, as [`In::read`] does.
+    pub fn current(self, defaults: T) -> Result<T, Code> {
+        In(self.0.cast_const()).read(defaults)
     }
 
     /// Writes as much of it as the caller's struct says that it holds; that size stays.

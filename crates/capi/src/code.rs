@@ -1,6 +1,7 @@
 //! Results, as the header numbers them. A number is never used again for something else.
 
 use crate::generated as c;
+use hapflow_devices::DeviceError;
 use hapflow_engine::SceneError;
 use std::ffi::CStr;
 
@@ -33,9 +34,9 @@ codes! {
     ERROR_NOT_NEGOTIATED = HAPFLOW_ERROR_NOT_NEGOTIATED, c"hapflow_negotiate comes before anything else";
     ERROR_VERSION = HAPFLOW_ERROR_VERSION, c"no common version of the ABI";
     ERROR_NULL = HAPFLOW_ERROR_NULL, c"a pointer that must not be null is";
-    ERROR_HANDLE = HAPFLOW_ERROR_HANDLE, c"the session is null, was destroyed, or never was";
-    ERROR_BUSY = HAPFLOW_ERROR_BUSY, c"another thread is in a function of this class, for this session";
-    ERROR_FULL = HAPFLOW_ERROR_FULL, c"as many sessions as there can be";
+    ERROR_HANDLE = HAPFLOW_ERROR_HANDLE, c"the session or device is null, was destroyed or closed, or never was";
+    ERROR_BUSY = HAPFLOW_ERROR_BUSY, c"another thread is in a function of this class, for this session, tool or device";
+    ERROR_FULL = HAPFLOW_ERROR_FULL, c"as many sessions, or devices, as there can be";
     ERROR_STRUCT = HAPFLOW_ERROR_STRUCT, c"the kind or size of a struct is wrong: was it initialised?";
     ERROR_UNSUPPORTED = HAPFLOW_ERROR_UNSUPPORTED, c"something that this version does not know";
     ERROR_TEXT = HAPFLOW_ERROR_TEXT, c"a text that is not UTF-8";
@@ -49,7 +50,8 @@ codes! {
     ERROR_TIME = HAPFLOW_ERROR_TIME, c"a time that goes back, is negative, or is too far ahead";
     ERROR_FAULTED = HAPFLOW_ERROR_FAULTED, c"the fluid panicked before; only destroying is left";
     ERROR_INDEX = HAPFLOW_ERROR_INDEX, c"an index that is not below the count";
-    ERROR_DRIVE = HAPFLOW_ERROR_DRIVE, c"the session's own thread steps the fluid";
+    ERROR_DRIVE = HAPFLOW_ERROR_DRIVE, c"the session's own thread does that: tick the servo, or step the fluid";
+    ERROR_DEVICE = HAPFLOW_ERROR_DEVICE, c"the device cannot be opened, or does not answer any more";
 }
 
 impl Code {
@@ -78,11 +80,29 @@ impl From<Code> for Failure {
     }
 }
 
+fn of_device(error: &DeviceError) -> Code {
+    match error {
+        DeviceError::Unknown { .. } => Code::ERROR_NOT_FOUND,
+        DeviceError::Unavailable { .. } | DeviceError::Lost { .. } | DeviceError::Closed { .. } => {
+            Code::ERROR_DEVICE
+        }
+        DeviceError::Setting(_) => Code::ERROR_VALUE,
+        DeviceError::Motion(_) | DeviceError::Script(_) => Code::ERROR_SCENE,
+    }
+}
+
+impl From<DeviceError> for Failure {
+    fn from(error: DeviceError) -> Self {
+        SceneError::from(error).into()
+    }
+}
+
 impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Self {
         let code = match &error {
             SceneError::NotFound { .. } => Code::ERROR_NOT_FOUND,
             SceneError::UnknownSetting { .. } => Code::ERROR_SETTING,
+            SceneError::Device(error) => of_device(error),
             SceneError::NotLive(_) => Code::ERROR_FIXED,
             SceneError::BadValue { .. }
             | SceneError::Fluid(_)

@@ -1,11 +1,14 @@
 //! `hapflow_session_config`: what a session is made of.
 
-use crate::caller::{Out, Record, Text};
+use crate::caller::{In, Out, Record, Text};
 use crate::code::{Code, Failure};
 use crate::contract::as_in_header;
 use crate::fence::fence;
 use crate::generated as c;
-use hapflow_engine::{Drive, Scene, Value, load, parse, settings};
+use crate::generated::HAPFLOW_MAX_TOOLS;
+use crate::handle::DeviceHandle;
+use crate::scene_source::SceneSource;
+use hapflow_engine::{Drive, Scene};
 use std::ffi::c_void;
 
 const KIND: u32 = c::HAPFLOW_KIND_SESSION_CONFIG;
@@ -25,11 +28,26 @@ pub struct SessionConfig {
     settings: Text,
     threads: u32,
     fluid_drive: u32,
+    servo_drive: u32,
+    device_count: u32,
+    devices: In<DeviceHandle>,
 }
 
 as_in_header!(
-    SessionConfig =
-        hapflow_session_config { kind, size, next, scene, toml, toml_length, settings, threads, fluid_drive }
+    SessionConfig = hapflow_session_config {
+        kind,
+        size,
+        next,
+        scene,
+        toml,
+        toml_length,
+        settings,
+        threads,
+        fluid_drive,
+        servo_drive,
+        device_count,
+        devices,
+    }
 );
 
 // SAFETY: repr(C), no padding with pointers of 4 or 8 bytes; every field takes any bits.
@@ -50,6 +68,9 @@ impl SessionConfig {
         settings: Text::NULL,
         threads: 0,
         fluid_drive: c::HAPFLOW_DRIVE_HOST,
+        servo_drive: c::HAPFLOW_DRIVE_HOST,
+        device_count: 0,
+        devices: In::NULL,
     };
 
     /// Refuses what this version does not know.
@@ -69,15 +90,12 @@ impl SessionConfig {
 
     /// Who steps the fluid.
     pub fn fluid_drive(&self) -> Result<Drive, Failure> {
-        match self.fluid_drive {
-            c::HAPFLOW_DRIVE_HOST => Ok(Drive::Host),
-            c::HAPFLOW_DRIVE_OWNED => Ok(Drive::Owned),
-            other => {
-                let text =
-                    format!("fluid_drive = {other}: must be HAPFLOW_DRIVE_HOST or HAPFLOW_DRIVE_OWNED");
-                Err(Failure { code: Code::ERROR_UNSUPPORTED, text })
-            }
-        }
+        drive("fluid_drive", self.fluid_drive)
+    }
+
+    /// Who ticks the servo.
+    pub fn servo_drive(&self) -> Result<Drive, Failure> {
+        drive("servo_drive", self.servo_drive)
     }
 
     /// Worker threads of the fluid; 0 is all cores but one.
@@ -87,40 +105,35 @@ impl SessionConfig {
 
     /// The scene, with the settings on top.
     pub fn scene(&self) -> Result<Scene, Failure> {
-        let mut scene = match (self.scene.is_null(), self.toml.is_null()) {
-            (false, true) => load(self.scene.read()?)?,
-            (true, false) => parse(self.toml.read_bytes(self.toml_length)?, "toml")?,
-            _ => {
-                let text = "exactly one of scene and toml must be given".into();
-                return Err(Failure { code: Code::ERROR_SCENE, text });
-            }
-        };
-        if !self.settings.is_null() {
-            apply(&mut scene, self.settings.read()?)?;
+        let Self { scene, toml, toml_length, settings, .. } = *self;
+        SceneSource { scene, toml, toml_length, settings }.read(None)
+    }
+
+    /// The devices of an owned servo that the host gives.
+    pub fn devices(&self) -> Result<Vec<DeviceHandle>, Failure> {
+        let most = if self.servo_drive()? == Drive::Owned { HAPFLOW_MAX_TOOLS } else { 0 };
+        if self.device_count > most {
+            let text =
+                format!("device_count = {}: must be a whole number from 0 to {most}", self.device_count);
+            return Err(Failure { code: Code::ERROR_VALUE, text });
         }
-        Ok(scene)
+        if self.device_count == 0 {
+            Ok(Vec::new())
+        } else {
+            Ok(self.devices.several(self.device_count as usize)?)
+        }
     }
 }
 
-/// Applies lines of `path = value`.
-fn apply(scene: &mut Scene, lines: &str) -> Result<(), Failure> {
-    for (n, line) in lines.lines().enumerate() {
-        let line = line.trim();
-        if line.is_empty() || line.starts_with('#') {
-            continue;
+fn drive(field: &str, word: u32) -> Result<Drive, Failure> {
+    match word {
+        c::HAPFLOW_DRIVE_HOST => Ok(Drive::Host),
+        c::HAPFLOW_DRIVE_OWNED => Ok(Drive::Owned),
+        other => {
+            let text = format!("{field} = {other}: must be HAPFLOW_DRIVE_HOST or HAPFLOW_DRIVE_OWNED");
+            Err(Failure { code: Code::ERROR_UNSUPPORTED, text })
         }
-        set_line(scene, line)
-            .map_err(|f| Failure { text: format!("settings:{}: {}", n + 1, f.text), ..f })?;
     }
-    Ok(())
-}
-
-fn set_line(scene: &mut Scene, line: &str) -> Result<(), Failure> {
-    let Some((path, value)) = line.split_once('=') else {
-        let text = format!("\"{line}\": must be path = value");
-        return Err(Failure { code: Code::ERROR_VALUE, text });
-    };
-    Ok(settings::set(scene, path.trim(), &Value::parse(value))?)
 }
 
 /// See the header.

@@ -7,9 +7,10 @@
 use crate::caller::{Buffer, In, Out, Text};
 use crate::code::Code;
 use crate::generated as c;
-use crate::table::Handle;
+use crate::handle::{DeviceHandle, Handle, Id};
 use crate::{
-    build_info, catalog, config, fluid, library, obstacle, report, servo, session, setting_info, tool_state,
+    build_info, catalog, config, device, device_config, fluid, library, obstacle, report, servo, servo_pace,
+    session, setting_info, tool_state,
 };
 use std::ffi::{c_char, c_void};
 
@@ -38,19 +39,21 @@ macro_rules! targets {
 }
 
 same_in_c! {
-    u32 = u32, u64 = u64, usize = usize, f64 = f64,
+    u32 = u32, u64 = u64, Id = u64, usize = usize, f64 = f64,
     [f64; 3] = [f64; 3], [f64; 4] = [f64; 4],
     Text = *const c_char, *const c_char = *const c_char, *const c_void = *const c_void,
-    Code = c::hapflow_result, Handle = c::hapflow_session,
+    Code = c::hapflow_result, Handle = c::hapflow_session, DeviceHandle = c::hapflow_device,
 }
 
 targets! {
     u32 = u32, usize = usize, f64 = f64, c_char = c_char,
     [f64; 3] = f64, [f64; 4] = f64, [f32; 3] = f32,
-    Handle = c::hapflow_session,
+    Handle = c::hapflow_session, DeviceHandle = c::hapflow_device,
+    device_config::DeviceConfig = c::hapflow_device_config,
+    servo_pace::ServoPaceRecord = c::hapflow_servo_pace,
     config::SessionConfig = c::hapflow_session_config,
-    tool_state::ToolStateIn = c::hapflow_tool_state,
-    crate::wrench::WrenchOut = c::hapflow_wrench,
+    tool_state::ToolStateRecord = c::hapflow_tool_state,
+    crate::wrench::WrenchRecord = c::hapflow_wrench,
     report::Report = c::hapflow_report,
     setting_info::SettingInfo = c::hapflow_setting_info,
     catalog::SceneRecord = c::hapflow_scene_info,
@@ -131,9 +134,16 @@ functions! {
     catalog::hapflow_scene_info_init(_, _);
     catalog::hapflow_scene_count();
     catalog::hapflow_scene_get(_, _);
+    tool_state::hapflow_tool_state_init(_, _);
     catalog::hapflow_device_info_init(_, _);
     catalog::hapflow_device_count();
     catalog::hapflow_device_get(_, _);
+    device::hapflow_device_config_init(_, _);
+    device::hapflow_device_open(_, _);
+    device::hapflow_device_close(_);
+    device::hapflow_device_read(_, _, _);
+    device::hapflow_device_write(_, _, _);
+    device::hapflow_device_clear_faults(_);
     config::hapflow_session_config_init(_, _);
     session::hapflow_session_create(_, _);
     session::hapflow_session_destroy(_);
@@ -147,9 +157,10 @@ functions! {
     setting_info::hapflow_setting_info_init(_, _);
     session::hapflow_session_setting_count(_, _);
     session::hapflow_session_setting_info(_, _, _);
-    tool_state::hapflow_tool_state_init(_, _);
     session::hapflow_session_tool_count(_, _);
     servo::hapflow_servo_tick(_, _, _);
+    servo_pace::hapflow_servo_pace_init(_, _);
+    session::hapflow_session_servo_pace(_, _, _);
     fluid::hapflow_fluid_advance(_, _);
     fluid::hapflow_fluid_step(_, _);
     fluid::hapflow_fluid_particles(_, _, _, _);

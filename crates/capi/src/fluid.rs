@@ -3,12 +3,12 @@
 use crate::caller::{Buffer, Out};
 use crate::code::{Code, Outcome};
 use crate::fence::fence;
+use crate::handle::Handle;
 use crate::hooks;
 use crate::lane::Faultable;
-use crate::session::Alarm;
-use crate::table::{Handle, LIBRARY};
-use crate::tool_state::LATEST_S;
-use hapflow_engine::FluidUnit;
+use crate::table::LIBRARY;
+use crate::tool_state::check_time;
+use hapflow_engine::{Control, FluidUnit};
 use hapflow_fluid::ParticleView;
 use hapflow_haptics::FaultSet;
 
@@ -20,7 +20,7 @@ const SLACK_S: f64 = 1e-9;
 
 /// The fluid's part of a session.
 pub struct FluidSide {
-    alarm: Alarm,
+    control: Control,
     broken: bool,
     /// None: the session's own thread has it.
     hosted: Option<HostedFluid>,
@@ -42,12 +42,12 @@ struct HostedFluid {
 impl Faultable for FluidSide {
     fn fault(&mut self) {
         self.broken = true;
-        self.alarm.raise(FaultSet::PANIC | FaultSet::FLUID_FAULT);
+        self.control.raise(FaultSet::PANIC | FaultSet::FLUID_FAULT);
     }
 }
 
 impl FluidSide {
-    pub fn new(unit: Option<FluidUnit>, alarm: Alarm, fluid_hz: f64) -> Self {
+    pub fn new(unit: Option<FluidUnit>, control: Control, fluid_hz: f64) -> Self {
         let hosted = unit.map(|unit| HostedFluid {
             unit,
             fluid_hz,
@@ -56,7 +56,7 @@ impl FluidSide {
             view: ParticleView::default(),
             viewed: false,
         });
-        Self { alarm, broken: false, hosted }
+        Self { control, broken: false, hosted }
     }
 
     /// The fluid, if the host may step it.
@@ -112,13 +112,6 @@ impl HostedFluid {
         }
         &self.view.positions
     }
-}
-
-fn check_time(time_s: f64) -> Result<(), Code> {
-    if !time_s.is_finite() {
-        return Err(Code::ERROR_NOT_FINITE);
-    }
-    if (0.0..=LATEST_S).contains(&time_s) { Ok(()) } else { Err(Code::ERROR_TIME) }
 }
 
 fn with_fluid(session: Handle, body: impl FnOnce(&mut HostedFluid) -> Outcome) -> Code {

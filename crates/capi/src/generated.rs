@@ -2,6 +2,8 @@
 #![allow(dead_code, non_camel_case_types, clippy::all)]
 
 pub const HAPFLOW_ABI_VERSION: u32 = 1;
+pub const HAPFLOW_MAX_DEVICES: u32 = 64;
+pub const HAPFLOW_KIND_DEVICE_CONFIG: u32 = 2;
 pub const HAPFLOW_MAX_SESSIONS: u32 = 64;
 pub const HAPFLOW_KIND_SESSION_CONFIG: u32 = 1;
 pub const HAPFLOW_MAX_TOOLS: u32 = 8;
@@ -32,6 +34,7 @@ pub const HAPFLOW_ERROR_TIME: _bindgen_ty_1 = -18;
 pub const HAPFLOW_ERROR_FAULTED: _bindgen_ty_1 = -19;
 pub const HAPFLOW_ERROR_INDEX: _bindgen_ty_1 = -20;
 pub const HAPFLOW_ERROR_DRIVE: _bindgen_ty_1 = -21;
+pub const HAPFLOW_ERROR_DEVICE: _bindgen_ty_1 = -22;
 pub type _bindgen_ty_1 = ::core::ffi::c_int;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -66,186 +69,6 @@ const _: () = {
     [
         "Offset of field: hapflow_scene_info::toml",
     ][::core::mem::offset_of!(hapflow_scene_info, toml) - 24usize];
-};
-#[repr(C)]
-#[derive(Debug, Copy, Clone)]
-pub struct hapflow_device_info {
-    pub size: u32,
-    pub sensed_dof: u32,
-    pub driven_dof: u32,
-    pub hardware: u32,
-    pub max_force: f64,
-    pub name: *const ::core::ffi::c_char,
-    pub about: *const ::core::ffi::c_char,
-}
-#[allow(clippy::unnecessary_operation, clippy::identity_op)]
-#[cfg(target_pointer_width = "64")]
-const _: () = {
-    [
-        "Size of hapflow_device_info",
-    ][::core::mem::size_of::<hapflow_device_info>() - 40usize];
-    [
-        "Alignment of hapflow_device_info",
-    ][::core::mem::align_of::<hapflow_device_info>() - 8usize];
-    [
-        "Offset of field: hapflow_device_info::size",
-    ][::core::mem::offset_of!(hapflow_device_info, size) - 0usize];
-    [
-        "Offset of field: hapflow_device_info::sensed_dof",
-    ][::core::mem::offset_of!(hapflow_device_info, sensed_dof) - 4usize];
-    [
-        "Offset of field: hapflow_device_info::driven_dof",
-    ][::core::mem::offset_of!(hapflow_device_info, driven_dof) - 8usize];
-    [
-        "Offset of field: hapflow_device_info::hardware",
-    ][::core::mem::offset_of!(hapflow_device_info, hardware) - 12usize];
-    [
-        "Offset of field: hapflow_device_info::max_force",
-    ][::core::mem::offset_of!(hapflow_device_info, max_force) - 16usize];
-    [
-        "Offset of field: hapflow_device_info::name",
-    ][::core::mem::offset_of!(hapflow_device_info, name) - 24usize];
-    [
-        "Offset of field: hapflow_device_info::about",
-    ][::core::mem::offset_of!(hapflow_device_info, about) - 32usize];
-};
-#[repr(C)]
-#[derive(Debug, Copy, Clone)]
-pub struct hapflow_session {
-    pub id: u64,
-}
-#[allow(clippy::unnecessary_operation, clippy::identity_op)]
-#[cfg(target_pointer_width = "64")]
-const _: () = {
-    ["Size of hapflow_session"][::core::mem::size_of::<hapflow_session>() - 8usize];
-    [
-        "Alignment of hapflow_session",
-    ][::core::mem::align_of::<hapflow_session>() - 8usize];
-    [
-        "Offset of field: hapflow_session::id",
-    ][::core::mem::offset_of!(hapflow_session, id) - 0usize];
-};
-pub const HAPFLOW_DRIVE_HOST: _bindgen_ty_2 = 0;
-pub const HAPFLOW_DRIVE_OWNED: _bindgen_ty_2 = 1;
-pub type _bindgen_ty_2 = ::core::ffi::c_uint;
-#[repr(C)]
-#[derive(Debug, Copy, Clone)]
-pub struct hapflow_session_config {
-    pub kind: u32,
-    pub size: u32,
-    pub next: *const ::core::ffi::c_void,
-    pub scene: *const ::core::ffi::c_char,
-    pub toml: *const ::core::ffi::c_char,
-    pub toml_length: usize,
-    pub settings: *const ::core::ffi::c_char,
-    pub threads: u32,
-    pub fluid_drive: u32,
-}
-#[allow(clippy::unnecessary_operation, clippy::identity_op)]
-#[cfg(target_pointer_width = "64")]
-const _: () = {
-    [
-        "Size of hapflow_session_config",
-    ][::core::mem::size_of::<hapflow_session_config>() - 56usize];
-    [
-        "Alignment of hapflow_session_config",
-    ][::core::mem::align_of::<hapflow_session_config>() - 8usize];
-    [
-        "Offset of field: hapflow_session_config::kind",
-    ][::core::mem::offset_of!(hapflow_session_config, kind) - 0usize];
-    [
-        "Offset of field: hapflow_session_config::size",
-    ][::core::mem::offset_of!(hapflow_session_config, size) - 4usize];
-    [
-        "Offset of field: hapflow_session_config::next",
-    ][::core::mem::offset_of!(hapflow_session_config, next) - 8usize];
-    [
-        "Offset of field: hapflow_session_config::scene",
-    ][::core::mem::offset_of!(hapflow_session_config, scene) - 16usize];
-    [
-        "Offset of field: hapflow_session_config::toml",
-    ][::core::mem::offset_of!(hapflow_session_config, toml) - 24usize];
-    [
-        "Offset of field: hapflow_session_config::toml_length",
-    ][::core::mem::offset_of!(hapflow_session_config, toml_length) - 32usize];
-    [
-        "Offset of field: hapflow_session_config::settings",
-    ][::core::mem::offset_of!(hapflow_session_config, settings) - 40usize];
-    [
-        "Offset of field: hapflow_session_config::threads",
-    ][::core::mem::offset_of!(hapflow_session_config, threads) - 48usize];
-    [
-        "Offset of field: hapflow_session_config::fluid_drive",
-    ][::core::mem::offset_of!(hapflow_session_config, fluid_drive) - 52usize];
-};
-pub const HAPFLOW_SETTING_NUMBER: _bindgen_ty_3 = 1;
-pub const HAPFLOW_SETTING_INTEGER: _bindgen_ty_3 = 2;
-pub const HAPFLOW_SETTING_SWITCH: _bindgen_ty_3 = 3;
-pub const HAPFLOW_SETTING_CHOICE: _bindgen_ty_3 = 4;
-pub const HAPFLOW_SETTING_TEXT: _bindgen_ty_3 = 5;
-pub const HAPFLOW_SETTING_VECTOR: _bindgen_ty_3 = 6;
-pub type _bindgen_ty_3 = ::core::ffi::c_uint;
-#[repr(C)]
-#[derive(Debug, Copy, Clone)]
-pub struct hapflow_setting_info {
-    pub size: u32,
-    pub kind: u32,
-    pub live: u32,
-    pub reserved: u32,
-    pub min: f64,
-    pub max: f64,
-    pub path: *const ::core::ffi::c_char,
-    pub group: *const ::core::ffi::c_char,
-    pub unit: *const ::core::ffi::c_char,
-    pub about: *const ::core::ffi::c_char,
-    pub choices: *const ::core::ffi::c_char,
-    pub usual: *const ::core::ffi::c_char,
-}
-#[allow(clippy::unnecessary_operation, clippy::identity_op)]
-#[cfg(target_pointer_width = "64")]
-const _: () = {
-    [
-        "Size of hapflow_setting_info",
-    ][::core::mem::size_of::<hapflow_setting_info>() - 80usize];
-    [
-        "Alignment of hapflow_setting_info",
-    ][::core::mem::align_of::<hapflow_setting_info>() - 8usize];
-    [
-        "Offset of field: hapflow_setting_info::size",
-    ][::core::mem::offset_of!(hapflow_setting_info, size) - 0usize];
-    [
-        "Offset of field: hapflow_setting_info::kind",
-    ][::core::mem::offset_of!(hapflow_setting_info, kind) - 4usize];
-    [
-        "Offset of field: hapflow_setting_info::live",
-    ][::core::mem::offset_of!(hapflow_setting_info, live) - 8usize];
-    [
-        "Offset of field: hapflow_setting_info::reserved",
-    ][::core::mem::offset_of!(hapflow_setting_info, reserved) - 12usize];
-    [
-        "Offset of field: hapflow_setting_info::min",
-    ][::core::mem::offset_of!(hapflow_setting_info, min) - 16usize];
-    [
-        "Offset of field: hapflow_setting_info::max",
-    ][::core::mem::offset_of!(hapflow_setting_info, max) - 24usize];
-    [
-        "Offset of field: hapflow_setting_info::path",
-    ][::core::mem::offset_of!(hapflow_setting_info, path) - 32usize];
-    [
-        "Offset of field: hapflow_setting_info::group",
-    ][::core::mem::offset_of!(hapflow_setting_info, group) - 40usize];
-    [
-        "Offset of field: hapflow_setting_info::unit",
-    ][::core::mem::offset_of!(hapflow_setting_info, unit) - 48usize];
-    [
-        "Offset of field: hapflow_setting_info::about",
-    ][::core::mem::offset_of!(hapflow_setting_info, about) - 56usize];
-    [
-        "Offset of field: hapflow_setting_info::choices",
-    ][::core::mem::offset_of!(hapflow_setting_info, choices) - 64usize];
-    [
-        "Offset of field: hapflow_setting_info::usual",
-    ][::core::mem::offset_of!(hapflow_setting_info, usual) - 72usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -319,18 +142,332 @@ const _: () = {
         "Offset of field: hapflow_wrench::torque",
     ][::core::mem::offset_of!(hapflow_wrench, torque) - 24usize];
 };
-pub const HAPFLOW_FAULT_INPUT: _bindgen_ty_4 = 1;
-pub const HAPFLOW_FAULT_FORCE: _bindgen_ty_4 = 2;
-pub const HAPFLOW_FAULT_PANIC: _bindgen_ty_4 = 4;
-pub const HAPFLOW_FAULT_DEVICE_LOST: _bindgen_ty_4 = 16;
-pub const HAPFLOW_FAULT_EMERGENCY_STOP: _bindgen_ty_4 = 32;
-pub const HAPFLOW_FAULT_FLUID: _bindgen_ty_4 = 128;
-pub const HAPFLOW_FAULT_STALE: _bindgen_ty_4 = 8;
-pub const HAPFLOW_FAULT_PATH_OVERFLOW: _bindgen_ty_4 = 64;
-pub const HAPFLOW_FAULT_LATE_TICK: _bindgen_ty_4 = 256;
-pub const HAPFLOW_FAULT_FORCE_LIMITED: _bindgen_ty_4 = 512;
-pub const HAPFLOW_FAULT_SLEW_LIMITED: _bindgen_ty_4 = 1024;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_device_info {
+    pub size: u32,
+    pub sensed_dof: u32,
+    pub driven_dof: u32,
+    pub hardware: u32,
+    pub max_force: f64,
+    pub name: *const ::core::ffi::c_char,
+    pub about: *const ::core::ffi::c_char,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_device_info",
+    ][::core::mem::size_of::<hapflow_device_info>() - 40usize];
+    [
+        "Alignment of hapflow_device_info",
+    ][::core::mem::align_of::<hapflow_device_info>() - 8usize];
+    [
+        "Offset of field: hapflow_device_info::size",
+    ][::core::mem::offset_of!(hapflow_device_info, size) - 0usize];
+    [
+        "Offset of field: hapflow_device_info::sensed_dof",
+    ][::core::mem::offset_of!(hapflow_device_info, sensed_dof) - 4usize];
+    [
+        "Offset of field: hapflow_device_info::driven_dof",
+    ][::core::mem::offset_of!(hapflow_device_info, driven_dof) - 8usize];
+    [
+        "Offset of field: hapflow_device_info::hardware",
+    ][::core::mem::offset_of!(hapflow_device_info, hardware) - 12usize];
+    [
+        "Offset of field: hapflow_device_info::max_force",
+    ][::core::mem::offset_of!(hapflow_device_info, max_force) - 16usize];
+    [
+        "Offset of field: hapflow_device_info::name",
+    ][::core::mem::offset_of!(hapflow_device_info, name) - 24usize];
+    [
+        "Offset of field: hapflow_device_info::about",
+    ][::core::mem::offset_of!(hapflow_device_info, about) - 32usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_device {
+    pub id: u64,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    ["Size of hapflow_device"][::core::mem::size_of::<hapflow_device>() - 8usize];
+    ["Alignment of hapflow_device"][::core::mem::align_of::<hapflow_device>() - 8usize];
+    [
+        "Offset of field: hapflow_device::id",
+    ][::core::mem::offset_of!(hapflow_device, id) - 0usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_device_config {
+    pub kind: u32,
+    pub size: u32,
+    pub next: *const ::core::ffi::c_void,
+    pub name: *const ::core::ffi::c_char,
+    pub scene: *const ::core::ffi::c_char,
+    pub toml: *const ::core::ffi::c_char,
+    pub toml_length: usize,
+    pub settings: *const ::core::ffi::c_char,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_device_config",
+    ][::core::mem::size_of::<hapflow_device_config>() - 56usize];
+    [
+        "Alignment of hapflow_device_config",
+    ][::core::mem::align_of::<hapflow_device_config>() - 8usize];
+    [
+        "Offset of field: hapflow_device_config::kind",
+    ][::core::mem::offset_of!(hapflow_device_config, kind) - 0usize];
+    [
+        "Offset of field: hapflow_device_config::size",
+    ][::core::mem::offset_of!(hapflow_device_config, size) - 4usize];
+    [
+        "Offset of field: hapflow_device_config::next",
+    ][::core::mem::offset_of!(hapflow_device_config, next) - 8usize];
+    [
+        "Offset of field: hapflow_device_config::name",
+    ][::core::mem::offset_of!(hapflow_device_config, name) - 16usize];
+    [
+        "Offset of field: hapflow_device_config::scene",
+    ][::core::mem::offset_of!(hapflow_device_config, scene) - 24usize];
+    [
+        "Offset of field: hapflow_device_config::toml",
+    ][::core::mem::offset_of!(hapflow_device_config, toml) - 32usize];
+    [
+        "Offset of field: hapflow_device_config::toml_length",
+    ][::core::mem::offset_of!(hapflow_device_config, toml_length) - 40usize];
+    [
+        "Offset of field: hapflow_device_config::settings",
+    ][::core::mem::offset_of!(hapflow_device_config, settings) - 48usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_session {
+    pub id: u64,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    ["Size of hapflow_session"][::core::mem::size_of::<hapflow_session>() - 8usize];
+    [
+        "Alignment of hapflow_session",
+    ][::core::mem::align_of::<hapflow_session>() - 8usize];
+    [
+        "Offset of field: hapflow_session::id",
+    ][::core::mem::offset_of!(hapflow_session, id) - 0usize];
+};
+pub const HAPFLOW_DRIVE_HOST: _bindgen_ty_2 = 0;
+pub const HAPFLOW_DRIVE_OWNED: _bindgen_ty_2 = 1;
+pub type _bindgen_ty_2 = ::core::ffi::c_uint;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_session_config {
+    pub kind: u32,
+    pub size: u32,
+    pub next: *const ::core::ffi::c_void,
+    pub scene: *const ::core::ffi::c_char,
+    pub toml: *const ::core::ffi::c_char,
+    pub toml_length: usize,
+    pub settings: *const ::core::ffi::c_char,
+    pub threads: u32,
+    pub fluid_drive: u32,
+    pub servo_drive: u32,
+    pub device_count: u32,
+    pub devices: *const hapflow_device,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_session_config",
+    ][::core::mem::size_of::<hapflow_session_config>() - 72usize];
+    [
+        "Alignment of hapflow_session_config",
+    ][::core::mem::align_of::<hapflow_session_config>() - 8usize];
+    [
+        "Offset of field: hapflow_session_config::kind",
+    ][::core::mem::offset_of!(hapflow_session_config, kind) - 0usize];
+    [
+        "Offset of field: hapflow_session_config::size",
+    ][::core::mem::offset_of!(hapflow_session_config, size) - 4usize];
+    [
+        "Offset of field: hapflow_session_config::next",
+    ][::core::mem::offset_of!(hapflow_session_config, next) - 8usize];
+    [
+        "Offset of field: hapflow_session_config::scene",
+    ][::core::mem::offset_of!(hapflow_session_config, scene) - 16usize];
+    [
+        "Offset of field: hapflow_session_config::toml",
+    ][::core::mem::offset_of!(hapflow_session_config, toml) - 24usize];
+    [
+        "Offset of field: hapflow_session_config::toml_length",
+    ][::core::mem::offset_of!(hapflow_session_config, toml_length) - 32usize];
+    [
+        "Offset of field: hapflow_session_config::settings",
+    ][::core::mem::offset_of!(hapflow_session_config, settings) - 40usize];
+    [
+        "Offset of field: hapflow_session_config::threads",
+    ][::core::mem::offset_of!(hapflow_session_config, threads) - 48usize];
+    [
+        "Offset of field: hapflow_session_config::fluid_drive",
+    ][::core::mem::offset_of!(hapflow_session_config, fluid_drive) - 52usize];
+    [
+        "Offset of field: hapflow_session_config::servo_drive",
+    ][::core::mem::offset_of!(hapflow_session_config, servo_drive) - 56usize];
+    [
+        "Offset of field: hapflow_session_config::device_count",
+    ][::core::mem::offset_of!(hapflow_session_config, device_count) - 60usize];
+    [
+        "Offset of field: hapflow_session_config::devices",
+    ][::core::mem::offset_of!(hapflow_session_config, devices) - 64usize];
+};
+pub const HAPFLOW_SETTING_NUMBER: _bindgen_ty_3 = 1;
+pub const HAPFLOW_SETTING_INTEGER: _bindgen_ty_3 = 2;
+pub const HAPFLOW_SETTING_SWITCH: _bindgen_ty_3 = 3;
+pub const HAPFLOW_SETTING_CHOICE: _bindgen_ty_3 = 4;
+pub const HAPFLOW_SETTING_TEXT: _bindgen_ty_3 = 5;
+pub const HAPFLOW_SETTING_VECTOR: _bindgen_ty_3 = 6;
+pub type _bindgen_ty_3 = ::core::ffi::c_uint;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_setting_info {
+    pub size: u32,
+    pub kind: u32,
+    pub live: u32,
+    pub reserved: u32,
+    pub min: f64,
+    pub max: f64,
+    pub path: *const ::core::ffi::c_char,
+    pub group: *const ::core::ffi::c_char,
+    pub unit: *const ::core::ffi::c_char,
+    pub about: *const ::core::ffi::c_char,
+    pub choices: *const ::core::ffi::c_char,
+    pub usual: *const ::core::ffi::c_char,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_setting_info",
+    ][::core::mem::size_of::<hapflow_setting_info>() - 80usize];
+    [
+        "Alignment of hapflow_setting_info",
+    ][::core::mem::align_of::<hapflow_setting_info>() - 8usize];
+    [
+        "Offset of field: hapflow_setting_info::size",
+    ][::core::mem::offset_of!(hapflow_setting_info, size) - 0usize];
+    [
+        "Offset of field: hapflow_setting_info::kind",
+    ][::core::mem::offset_of!(hapflow_setting_info, kind) - 4usize];
+    [
+        "Offset of field: hapflow_setting_info::live",
+    ][::core::mem::offset_of!(hapflow_setting_info, live) - 8usize];
+    [
+        "Offset of field: hapflow_setting_info::reserved",
+    ][::core::mem::offset_of!(hapflow_setting_info, reserved) - 12usize];
+    [
+        "Offset of field: hapflow_setting_info::min",
+    ][::core::mem::offset_of!(hapflow_setting_info, min) - 16usize];
+    [
+        "Offset of field: hapflow_setting_info::max",
+    ][::core::mem::offset_of!(hapflow_setting_info, max) - 24usize];
+    [
+        "Offset of field: hapflow_setting_info::path",
+    ][::core::mem::offset_of!(hapflow_setting_info, path) - 32usize];
+    [
+        "Offset of field: hapflow_setting_info::group",
+    ][::core::mem::offset_of!(hapflow_setting_info, group) - 40usize];
+    [
+        "Offset of field: hapflow_setting_info::unit",
+    ][::core::mem::offset_of!(hapflow_setting_info, unit) - 48usize];
+    [
+        "Offset of field: hapflow_setting_info::about",
+    ][::core::mem::offset_of!(hapflow_setting_info, about) - 56usize];
+    [
+        "Offset of field: hapflow_setting_info::choices",
+    ][::core::mem::offset_of!(hapflow_setting_info, choices) - 64usize];
+    [
+        "Offset of field: hapflow_setting_info::usual",
+    ][::core::mem::offset_of!(hapflow_setting_info, usual) - 72usize];
+};
+pub const HAPFLOW_PRIORITY_NOT_ASKED: _bindgen_ty_4 = 0;
+pub const HAPFLOW_PRIORITY_GRANTED: _bindgen_ty_4 = 1;
+pub const HAPFLOW_PRIORITY_REFUSED: _bindgen_ty_4 = 2;
 pub type _bindgen_ty_4 = ::core::ffi::c_uint;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_servo_pace {
+    pub size: u32,
+    pub owned: u32,
+    pub running: u32,
+    pub priority: u32,
+    pub ticks: u64,
+    pub late: u64,
+    pub median_s: f64,
+    pub p99_s: f64,
+    pub longest_s: f64,
+    pub priority_text: *const ::core::ffi::c_char,
+    pub device: *const ::core::ffi::c_char,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_servo_pace",
+    ][::core::mem::size_of::<hapflow_servo_pace>() - 72usize];
+    [
+        "Alignment of hapflow_servo_pace",
+    ][::core::mem::align_of::<hapflow_servo_pace>() - 8usize];
+    [
+        "Offset of field: hapflow_servo_pace::size",
+    ][::core::mem::offset_of!(hapflow_servo_pace, size) - 0usize];
+    [
+        "Offset of field: hapflow_servo_pace::owned",
+    ][::core::mem::offset_of!(hapflow_servo_pace, owned) - 4usize];
+    [
+        "Offset of field: hapflow_servo_pace::running",
+    ][::core::mem::offset_of!(hapflow_servo_pace, running) - 8usize];
+    [
+        "Offset of field: hapflow_servo_pace::priority",
+    ][::core::mem::offset_of!(hapflow_servo_pace, priority) - 12usize];
+    [
+        "Offset of field: hapflow_servo_pace::ticks",
+    ][::core::mem::offset_of!(hapflow_servo_pace, ticks) - 16usize];
+    [
+        "Offset of field: hapflow_servo_pace::late",
+    ][::core::mem::offset_of!(hapflow_servo_pace, late) - 24usize];
+    [
+        "Offset of field: hapflow_servo_pace::median_s",
+    ][::core::mem::offset_of!(hapflow_servo_pace, median_s) - 32usize];
+    [
+        "Offset of field: hapflow_servo_pace::p99_s",
+    ][::core::mem::offset_of!(hapflow_servo_pace, p99_s) - 40usize];
+    [
+        "Offset of field: hapflow_servo_pace::longest_s",
+    ][::core::mem::offset_of!(hapflow_servo_pace, longest_s) - 48usize];
+    [
+        "Offset of field: hapflow_servo_pace::priority_text",
+    ][::core::mem::offset_of!(hapflow_servo_pace, priority_text) - 56usize];
+    [
+        "Offset of field: hapflow_servo_pace::device",
+    ][::core::mem::offset_of!(hapflow_servo_pace, device) - 64usize];
+};
+pub const HAPFLOW_FAULT_INPUT: _bindgen_ty_5 = 1;
+pub const HAPFLOW_FAULT_FORCE: _bindgen_ty_5 = 2;
+pub const HAPFLOW_FAULT_PANIC: _bindgen_ty_5 = 4;
+pub const HAPFLOW_FAULT_DEVICE_LOST: _bindgen_ty_5 = 16;
+pub const HAPFLOW_FAULT_EMERGENCY_STOP: _bindgen_ty_5 = 32;
+pub const HAPFLOW_FAULT_FLUID: _bindgen_ty_5 = 128;
+pub const HAPFLOW_FAULT_STALE: _bindgen_ty_5 = 8;
+pub const HAPFLOW_FAULT_PATH_OVERFLOW: _bindgen_ty_5 = 64;
+pub const HAPFLOW_FAULT_LATE_TICK: _bindgen_ty_5 = 256;
+pub const HAPFLOW_FAULT_FORCE_LIMITED: _bindgen_ty_5 = 512;
+pub const HAPFLOW_FAULT_SLEW_LIMITED: _bindgen_ty_5 = 1024;
+pub type _bindgen_ty_5 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_report {
@@ -448,6 +585,10 @@ unsafe extern "C" {
         index: u32,
         info: *mut hapflow_scene_info,
     ) -> hapflow_result;
+    pub fn hapflow_tool_state_init(
+        state: *mut hapflow_tool_state,
+        size: u32,
+    ) -> hapflow_result;
     pub fn hapflow_device_info_init(
         info: *mut hapflow_device_info,
         size: u32,
@@ -457,6 +598,26 @@ unsafe extern "C" {
         index: u32,
         info: *mut hapflow_device_info,
     ) -> hapflow_result;
+    pub fn hapflow_device_config_init(
+        config: *mut hapflow_device_config,
+        size: u32,
+    ) -> hapflow_result;
+    pub fn hapflow_device_open(
+        config: *const hapflow_device_config,
+        device: *mut hapflow_device,
+    ) -> hapflow_result;
+    pub fn hapflow_device_close(device: hapflow_device) -> hapflow_result;
+    pub fn hapflow_device_read(
+        device: hapflow_device,
+        time_s: f64,
+        state: *mut hapflow_tool_state,
+    ) -> hapflow_result;
+    pub fn hapflow_device_write(
+        device: hapflow_device,
+        wrench: *const hapflow_wrench,
+        dt_s: f64,
+    ) -> hapflow_result;
+    pub fn hapflow_device_clear_faults(device: hapflow_device) -> hapflow_result;
     pub fn hapflow_session_config_init(
         config: *mut hapflow_session_config,
         size: u32,
@@ -508,10 +669,6 @@ unsafe extern "C" {
         index: u32,
         info: *mut hapflow_setting_info,
     ) -> hapflow_result;
-    pub fn hapflow_tool_state_init(
-        state: *mut hapflow_tool_state,
-        size: u32,
-    ) -> hapflow_result;
     pub fn hapflow_session_tool_count(
         session: hapflow_session,
         count: *mut u32,
@@ -520,6 +677,15 @@ unsafe extern "C" {
         session: hapflow_session,
         state: *const hapflow_tool_state,
         wrench: *mut hapflow_wrench,
+    ) -> hapflow_result;
+    pub fn hapflow_servo_pace_init(
+        pace: *mut hapflow_servo_pace,
+        size: u32,
+    ) -> hapflow_result;
+    pub fn hapflow_session_servo_pace(
+        session: hapflow_session,
+        tool: u32,
+        pace: *mut hapflow_servo_pace,
     ) -> hapflow_result;
     pub fn hapflow_fluid_advance(
         session: hapflow_session,

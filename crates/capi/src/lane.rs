@@ -212,6 +212,12 @@ impl<T> Claimed<'_, T> {
         std::mem::forget(self);
     }
 
+    /// Lets threads in again that knew the last generation, to what it has.
+    pub fn reopen(self) {
+        self.lane.word.store(word(self.generation(), 0), Ordering::Release);
+        std::mem::forget(self);
+    }
+
     /// Empties it.
     pub fn take(&mut self) -> Option<T> {
         // SAFETY: the claim excludes every other thread.
@@ -282,6 +288,13 @@ mod tests {
         assert_eq!(lane.enter(3).err(), Some(Refused::Stale));
         assert_eq!(lane.close(3).err(), Some(Refused::Stale));
         assert_eq!(lane.claim().map(|c| c.generation()), Some(3));
+    }
+
+    #[test]
+    fn what_was_closed_may_be_opened_again_as_it_was() {
+        let lane = open(3, 7);
+        lane.close(3).unwrap().reopen();
+        assert_eq!(lane.enter(3).unwrap().0, 7);
     }
 
     #[test]

@@ -5,13 +5,15 @@
 //! | file | what |
 //! |---|---|
 //! | `library` | versions, texts of results, the last error |
-//! | `session`, `servo`, `fluid`, `obstacle` | the functions, by thread class |
-//! | `config`, `tool_state`, `wrench`, `report`, `setting_info` | the header's structs |
+//! | `session`, `servo`, `fluid`, `obstacle` | the functions of a session, by thread class |
+//! | `device` | those of a device in a loop of the host |
+//! | `config`, `device_config`, `tool_state`, `wrench`, `report`, `servo_pace`, `setting_info` | the header's structs |
+//! | `scene_source` | what the two configurations have in common |
 //! | `build_info`, `catalog` | what the build has; shipped scenes and devices |
 //! | `code` | results |
 //! | `generated`, `contract` | the header in Rust, and the check that all this is as it says |
 //! | `fence` | panics end here |
-//! | `table`, `lane` | handles, and who may be where; the one static |
+//! | `handle`, `table`, `device_table`, `lane` | handles, and who may be where; the one static |
 //! | `caller` | the caller's memory |
 //!
 //! `unsafe` is in `lane`, `caller` and, for one line a struct, where the header's structs are.
@@ -22,16 +24,22 @@ mod catalog;
 mod code;
 mod config;
 mod contract;
+mod device;
+mod device_config;
+mod device_table;
 mod fence;
 mod fluid;
 #[rustfmt::skip]
 mod generated;
+mod handle;
 mod hooks;
 mod lane;
 mod library;
 mod obstacle;
 mod report;
+mod scene_source;
 mod servo;
+mod servo_pace;
 mod session;
 mod setting_info;
 mod table;

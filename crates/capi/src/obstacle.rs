@@ -3,31 +3,32 @@
 use crate::caller::{In, Out};
 use crate::code::{Code, Outcome};
 use crate::fence::fence;
+use crate::handle::Handle;
 use crate::hooks;
 use crate::lane::Faultable;
-use crate::session::{Alarm, with_any};
-use crate::table::{Handle, LIBRARY};
+use crate::session::with_any;
+use crate::table::LIBRARY;
 use crate::tool_state::{FARTHEST, check_orientation};
 use glam::{DQuat, DVec3};
-use hapflow_engine::ObstacleMover;
+use hapflow_engine::{Control, ObstacleMover};
 use hapflow_haptics::FaultSet;
 
 /// The obstacles' part of a session.
 pub struct ObstacleSide {
     /// Not in its lane itself, as little as a tool: see [`crate::servo::ServoSide`].
     mover: Box<ObstacleMover>,
-    alarm: Alarm,
+    control: Control,
 }
 
 impl Faultable for ObstacleSide {
     fn fault(&mut self) {
-        self.alarm.raise(FaultSet::PANIC);
+        self.control.raise(FaultSet::PANIC);
     }
 }
 
 impl ObstacleSide {
-    pub fn new(mover: ObstacleMover, alarm: Alarm) -> Self {
-        Self { mover: Box::new(mover), alarm }
+    pub fn new(mover: ObstacleMover, control: Control) -> Self {
+        Self { mover: Box::new(mover), control }
     }
 
     /// How many there are.
@@ -80,7 +81,7 @@ pub extern "C" fn hapflow_obstacle_move(
     orientation: In<[f64; 4]>,
 ) -> Code {
     with_obstacles(session, |side| {
-        let (position, orientation) = (position.array()?, orientation.array()?);
+        let (position, orientation) = (position.whole()?, orientation.whole()?);
         side.set(index, DVec3::from(position), DQuat::from_array(orientation))
     })
 }

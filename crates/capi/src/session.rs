@@ -1,44 +1,33 @@
 //! The [main] and [any] functions of a session.
 
-use crate::caller::{Buffer, In, Out, Text};
+use crate::caller::{Buffer, In, Out, Shown, Text};
 use crate::code::{Code, Failure, Outcome};
 use crate::config::SessionConfig;
+use crate::device::DeviceSide;
 use crate::fence::{fence, fence_main};
 use crate::fluid::FluidSide;
+use crate::handle::Handle;
 use crate::hooks;
 use crate::lane::Faultable;
 use crate::obstacle::ObstacleSide;
 use crate::report::Report;
 use crate::servo::ServoSide;
+use crate::servo_pace::{Paces, ServoPaceRecord};
 use crate::setting_info::{Names, Panel, SettingInfo, plain};
-use crate::table::{Handle, LIBRARY, Parts};
+use crate::table::{LIBRARY, Parts};
 use glam::DVec3;
-use hapflow_engine::{Control, Drive, Scene, Session, SessionOptions, Value};
+use hapflow_devices::HapticDevice;
+use hapflow_engine::{Control, Drive, Scene, Session, SessionOptions, Value, open_device};
 use hapflow_fluid::ParticleView;
 use hapflow_haptics::FaultSet;
-use hapflow_realtime::SharedFlags;
 use std::ffi::c_char;
-
-/// Faults that the border itself raises: panics, and what it refuses. The servo passes them on at its next tick.
-#[derive(Clone)]
-pub struct Alarm(SharedFlags);
-
-impl Alarm {
-    pub fn raise(&self, faults: FaultSet) {
-        self.0.raise(faults.bits());
-    }
-
-    pub fn raised(&self) -> FaultSet {
-        FaultSet::from_bits(self.0.load())
-    }
-}
 
 /// Main's part of a session.
 pub struct MainSide {
     session: Session,
     control: Control,
-    alarm: Alarm,
     names: Names,
+    paces: Paces,
     /// Its settings, shown to C; made when it is first asked for.
     panel: Option<Panel>,
     particles: Taken,
@@ -59,12 +48,22 @@ impl MainSide {
 
     fn report(&mut self, tool: u32, report: Out<Report>) -> Result<Code, Failure> {
         report.check_record()?;
-        let Some(servo) = self.session.report_of(tool as usize) else {
-            return Err(Failure::index("tool", tool, self.session.tool_count() as u32));
-        };
-        let raised = self.control.faults() | self.alarm.raised();
-        report.fill(&Report::of(&servo, &self.session.fluid_report(), raised))?;
+        let servo = self.session.report_of(tool as usize).ok_or_else(|| self.no_tool(tool))?;
+        report.fill(&Report::of(&servo, &self.session.fluid_report(), self.control.faults()))?;
         Ok(Code::OK)
+    }
+
+    fn pace(&mut self, tool: u32, pace: Out<ServoPaceRecord>) -> Result<Code, Failure> {
+        pace.check_record()?;
+        if tool as usize >= self.session.tool_count() {
+            return Err(self.no_tool(tool));
+        }
+        pace.fill(&self.paces.of(&mut self.session, tool as usize))?;
+        Ok(Code::OK)
+    }
+
+    fn no_tool(&self, tool: u32) -> Failure {
+        Failure::index("tool", tool, self.session.tool_count() as u32)
     }
 
     /// The particles for a call with room for `capacity`: new ones, unless it follows one that told their count.
@@ -80,14 +79,14 @@ impl MainSide {
 
 impl Faultable for MainSide {
     fn fault(&mut self) {
-        self.alarm.raise(FaultSet::PANIC);
+        self.control.raise(FaultSet::PANIC);
     }
 }
 
 /// What any thread may reach of a session.
 pub struct AnySide {
     control: Control,
-    alarm: Alarm,
+    servo_drive: Drive,
     tools: u32,
     obstacles: u32,
 }
@@ -103,40 +102,69 @@ impl AnySide {
         self.obstacles
     }
 
-    /// A state was refused that is no tool's: every tool has to stop.
-    pub fn refuse_input(&self) {
-        self.alarm.raise(FaultSet::NON_FINITE_INPUT);
-    }
-
-    fn clear_faults(&self) {
-        self.alarm.0.clear(u32::MAX);
-        self.control.clear_faults();
+    /// A state was refused that is no tool's: every tool has to stop, if it is the host that ticks them.
+    pub fn refuse_input(&self) -> Result<(), Code> {
+        if self.servo_drive == Drive::Owned {
+            return Err(Code::ERROR_DRIVE);
+        }
+        self.control.raise(FaultSet::NON_FINITE_INPUT);
+        Ok(())
     }
 }
 
-/// Makes a session whose servo is the host's.
-fn open(scene: &Scene, threads: usize, fluid_drive: Drive) -> Result<Parts, Failure> {
-    let options = SessionOptions { threads, fluid_drive, ..SessionOptions::hosted() };
-    let mut session = Session::open(scene, options)?;
-    let (control, alarm) = (session.control(), Alarm(SharedFlags::new()));
-    let servos = (0..session.tool_count()).map_while(|tool| session.take_servo_of(tool));
-    let servos: Vec<_> = servos.map(|unit| ServoSide::new(unit, alarm.clone())).collect();
-    let fluid = FluidSide::new(session.take_fluid(), alarm.clone(), scene.run.fluid_hz);
+/// The devices of an owned servo: those of the host, else the scene's own.
+fn devices(config: &SessionConfig, scene: &Scene) -> Result<Vec<Box<dyn HapticDevice>>, Failure> {
+    let given = config.devices()?;
+    if config.servo_drive()? == Drive::Host {
+        return Ok(Vec::new());
+    }
+    if given.is_empty() {
+        return Ok(vec![open_device(scene)?]);
+    }
+    let tools = scene.tools().count();
+    if given.len() > tools {
+        let text = format!("device_count = {}: the scene has {tools} tools", given.len());
+        return Err(Failure { code: Code::ERROR_VALUE, text });
+    }
+    Ok(LIBRARY.devices.take(&given)?.into_iter().map(DeviceSide::into_device).collect())
+}
+
+/// Makes a session.
+fn open(config: &SessionConfig) -> Result<Parts, Failure> {
+    let (servo_drive, fluid_drive) = (config.servo_drive()?, config.fluid_drive()?);
+    let scene = config.scene()?;
+    // Before any device is taken over.
+    scene.check()?;
+    let devices = devices(config, &scene)?;
+    let names = devices.iter().map(|d| Shown::new(d.name())).collect();
+    let options = SessionOptions {
+        servo_drive,
+        fluid_drive,
+        threads: config.threads(),
+        devices,
+        ..SessionOptions::hosted()
+    };
+    let mut session = Session::open(&scene, options)?;
+    let control = session.control();
+    let tools = 0..session.tool_count();
+    let mut servo = |tool| session.take_servo_of(tool).filter(|_| servo_drive == Drive::Host);
+    let servos: Vec<_> = tools.map(|tool| ServoSide::new(servo(tool), control.clone())).collect();
+    let fluid = FluidSide::new(session.take_fluid(), control.clone(), scene.run.fluid_hz);
     let Some(mover) = session.take_obstacles() else {
         return Err(Failure { code: Code::ERROR_SCENE, text: "the session's obstacles are taken".into() });
     };
-    let obstacle = ObstacleSide::new(mover, alarm.clone());
+    let obstacle = ObstacleSide::new(mover, control.clone());
     let (tools, obstacles) = (servos.len() as u32, obstacle.count());
     Ok(Parts {
         servos,
         fluid,
         obstacle,
-        any: AnySide { control: control.clone(), alarm: alarm.clone(), tools, obstacles },
+        any: AnySide { control: control.clone(), servo_drive, tools, obstacles },
         main: MainSide {
+            paces: Paces::new(&mut session, names),
             session,
             control,
-            alarm,
-            names: Names::of(scene),
+            names: Names::of(&scene),
             panel: None,
             particles: Taken::default(),
         },
@@ -176,10 +204,8 @@ pub extern "C" fn hapflow_session_create(config: In<SessionConfig>, session: Out
         session.check()?;
         let config = config.read(SessionConfig::DEFAULT)?;
         config.check()?;
-        let drive = config.fluid_drive()?;
         hooks::panic_if_asked();
-        let parts = open(&config.scene()?, config.threads(), drive)?;
-        session.put(LIBRARY.place(parts)?)?;
+        session.put(LIBRARY.place(|| open(&config))?)?;
         Ok(Code::OK)
     })
 }
@@ -207,7 +233,7 @@ pub extern "C" fn hapflow_session_set(session: Handle, path: Text, value: f64) -
 #[unsafe(no_mangle)]
 pub extern "C" fn hapflow_session_set_vector(session: Handle, path: Text, value: In<[f64; 3]>) -> Code {
     with_main(session, |side| {
-        let (path, value) = (path.read()?, value.array()?);
+        let (path, value) = (path.read()?, value.whole()?);
         finite(path, &value)?;
         set(side, path, &Value::Vector(DVec3::from(value)))
     })
@@ -300,6 +326,12 @@ pub extern "C" fn hapflow_session_report_of(session: Handle, tool: u32, report: 
 
 /// See the header.
 #[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_servo_pace(session: Handle, tool: u32, pace: Out<ServoPaceRecord>) -> Code {
+    with_main(session, |side| side.pace(tool, pace))
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
 pub extern "C" fn hapflow_session_tool_count(session: Handle, count: Out<u32>) -> Code {
     with_any(session, |side| {
         count.put(side.tools())?;
@@ -320,7 +352,7 @@ pub extern "C" fn hapflow_session_emergency_stop(session: Handle) -> Code {
 #[unsafe(no_mangle)]
 pub extern "C" fn hapflow_session_clear_faults(session: Handle) -> Code {
     with_any(session, |side| {
-        side.clear_faults();
+        side.control.clear_faults();
         Ok(Code::OK)
     })
 }

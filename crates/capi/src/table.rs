@@ -1,11 +1,12 @@
-//! Handles, and the table of sessions behind them: the library's one static. (What else lasts is a thread's own
-//! last error.)
+//! Sessions by their handles, and what else lasts: the library's one static. (Apart from it there is a thread's own last
+//! error.)
 
 use crate::catalog::Catalog;
-use crate::code::Code;
-use crate::contract::as_in_header;
+use crate::code::{Code, Failure};
+use crate::device_table::Devices;
 use crate::fluid::FluidSide;
 use crate::generated::{HAPFLOW_MAX_SESSIONS, HAPFLOW_MAX_TOOLS};
+use crate::handle::{Handle, Id, next_generation};
 use crate::lane::{Alone, Claimed, Lane, Refused, Sharing};
 use crate::obstacle::ObstacleSide;
 use crate::servo::ServoSide;
@@ -20,25 +21,6 @@ pub const MAX_SESSIONS: usize = HAPFLOW_MAX_SESSIONS as usize;
 const MAX_TOOLS: usize = HAPFLOW_MAX_TOOLS as usize;
 
 const _: () = assert!(MAX_TOOLS == hapflow_engine::MAX_TOOLS);
-
-/// `hapflow_session`: slot + 1 in the lower half, generation in the upper; 0 is null.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Handle {
-    id: u64,
-}
-
-as_in_header!(Handle = hapflow_session { id });
-
-impl Handle {
-    fn new(slot: usize, generation: u32) -> Self {
-        Self { id: u64::from(generation) << 32 | (slot as u64 + 1) }
-    }
-
-    fn generation(self) -> u32 {
-        (self.id >> 32) as u32
-    }
-}
 
 /// A session in its parts, one a thread class; of the servo, one a tool. Lanes of tools that there are not stay
 /// vacant.
@@ -59,10 +41,11 @@ pub struct Parts {
     pub any: AnySide,
 }
 
-/// All that lasts: the version that was agreed on, the texts on what the build has, and the sessions.
+/// All that lasts: the version that was agreed on, the texts on what the build has, the devices, and the sessions.
 pub struct Library {
     version: AtomicU32,
     catalog: OnceLock<Catalog>,
+    pub devices: Devices,
     slots: [Slot; MAX_SESSIONS],
 }
 
@@ -80,7 +63,7 @@ impl From<Refused> for Code {
 impl Library {
     const fn new() -> Self {
         let slots = [const { Slot::vacant() }; MAX_SESSIONS];
-        Self { version: AtomicU32::new(0), catalog: OnceLock::new(), slots }
+        Self { version: AtomicU32::new(0), catalog: OnceLock::new(), devices: Devices::new(), slots }
     }
 
     /// Notes the version that was agreed on.
@@ -98,19 +81,17 @@ impl Library {
         self.catalog.get_or_init(Catalog::new)
     }
 
-    /// Puts a session into the first vacant slot.
-    pub fn place(&self, parts: Parts) -> Result<Handle, Code> {
-        for (index, slot) in self.slots.iter().enumerate() {
-            if let Some(claimed) = slot.claim() {
-                return Ok(Handle::new(index, claimed.open(parts)));
-            }
-        }
-        Err(Code::ERROR_FULL)
+    /// Puts the session that `open` gives into a vacant slot, which is kept for it meanwhile.
+    pub fn place(&self, open: impl FnOnce() -> Result<Parts, Failure>) -> Result<Handle, Failure> {
+        let mut slots = self.slots.iter().enumerate();
+        let vacant = slots.find_map(|(index, slot)| Some((index, slot.claim()?)));
+        let (index, claimed) = vacant.ok_or(Code::ERROR_FULL)?;
+        Ok(Handle { id: Id::new(index, claimed.open(open()?)) })
     }
 
     /// Takes a session out, once nobody is in it.
     pub fn remove(&self, handle: Handle) -> Result<Parts, Code> {
-        let (slot, generation) = (self.slot(handle)?, handle.generation());
+        let (slot, generation) = (self.slot(handle)?, handle.id.generation());
         // The one who closes main first is the one who closes all.
         let mut main = slot.main.close(generation)?;
         let mut servos: Vec<_> = slot.servos.iter().filter_map(|lane| lane.close(generation).ok()).collect();
@@ -127,12 +108,12 @@ impl Library {
     }
 
     pub fn main(&self, handle: Handle) -> Result<Alone<'_, MainSide>, Code> {
-        Ok(self.slot(handle)?.main.enter(handle.generation())?)
+        Ok(self.slot(handle)?.main.enter(handle.id.generation())?)
     }
 
     pub fn servo(&self, handle: Handle, tool: u32) -> Result<Alone<'_, ServoSide>, Code> {
         let lane = self.slot(handle)?.servos.get(tool as usize);
-        match lane.map_or(Err(Refused::Stale), |lane| lane.enter(handle.generation())) {
+        match lane.map_or(Err(Refused::Stale), |lane| lane.enter(handle.id.generation())) {
             // Another session, or another number of tools?
             Err(Refused::Stale) if tool >= self.any(handle)?.tools() => Err(Code::ERROR_INDEX),
             entered => Ok(entered?),
@@ -140,20 +121,19 @@ impl Library {
     }
 
     pub fn fluid(&self, handle: Handle) -> Result<Alone<'_, FluidSide>, Code> {
-        Ok(self.slot(handle)?.fluid.enter(handle.generation())?)
+        Ok(self.slot(handle)?.fluid.enter(handle.id.generation())?)
     }
 
     pub fn obstacles(&self, handle: Handle) -> Result<Alone<'_, ObstacleSide>, Code> {
-        Ok(self.slot(handle)?.obstacle.enter(handle.generation())?)
+        Ok(self.slot(handle)?.obstacle.enter(handle.id.generation())?)
     }
 
     pub fn any(&self, handle: Handle) -> Result<Sharing<'_, AnySide>, Code> {
-        Ok(self.slot(handle)?.any.share(handle.generation())?)
+        Ok(self.slot(handle)?.any.share(handle.id.generation())?)
     }
 
     fn slot(&self, handle: Handle) -> Result<&Slot, Code> {
-        let index = (handle.id & u64::from(u32::MAX)).wrapping_sub(1);
-        usize::try_from(index).ok().and_then(|i| self.slots.get(i)).ok_or(Code::ERROR_HANDLE)
+        handle.id.of(&self.slots)
     }
 }
 
@@ -182,18 +162,20 @@ impl Slot {
     }
 }
 
+/// A slot that nobody can enter; dropped, it is vacant.
 struct ClaimedSlot<'a> {
-    main: Claimed<'a, MainSide>,
     servos: Vec<Claimed<'a, ServoSide>>,
     fluid: Claimed<'a, FluidSide>,
     obstacle: Claimed<'a, ObstacleSide>,
     any: Claimed<'a, AnySide>,
+    /// Dropped last: who finds it vacant finds all of them so.
+    main: Claimed<'a, MainSide>,
 }
 
 impl ClaimedSlot<'_> {
-    /// Fills it, and says with which generation; never 0, so that no handle is null.
+    /// Fills it, and says with which generation.
     fn open(self, parts: Parts) -> u32 {
-        let generation = self.main.generation().checked_add(1).unwrap_or(1);
+        let generation = next_generation(self.main.generation());
         self.any.open(generation, parts.any);
         self.obstacle.open(generation, parts.obstacle);
         self.fluid.open(generation, parts.fluid);

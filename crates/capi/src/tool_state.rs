@@ -12,12 +12,12 @@ pub const FARTHEST: f64 = 1000.0;
 /// Fastest that it may turn, rad/s.
 const FASTEST_TURN: f64 = 1e5;
 /// Latest time, s: a third of a year, in which f64 still tells nanoseconds apart.
-pub const LATEST_S: f64 = 1e7;
+const LATEST_S: f64 = 1e7;
 
 /// `hapflow_tool_state`.
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct ToolStateIn {
+pub struct ToolStateRecord {
     size: u32,
     pub tool: u32,
     buttons: u32,
@@ -31,7 +31,7 @@ pub struct ToolStateIn {
 }
 
 as_in_header!(
-    ToolStateIn = hapflow_tool_state {
+    ToolStateRecord = hapflow_tool_state {
         size,
         tool,
         buttons,
@@ -46,12 +46,12 @@ as_in_header!(
 );
 
 // SAFETY: repr(C), 16 bytes and fifteen f64: no padding; every field takes any bits.
-unsafe impl Record for ToolStateIn {
+unsafe impl Record for ToolStateRecord {
     const SIZE_AT: usize = 0;
     const FIRST_SIZE: usize = 136;
 }
 
-impl ToolStateIn {
+impl ToolStateRecord {
     /// What the init function writes: a tool at rest in the origin, at 1 kHz.
     pub const DEFAULT: Self = Self {
         size: size_of::<Self>() as u32,
@@ -93,13 +93,41 @@ impl ToolStateIn {
         Ok(state)
     }
 
-    fn check_time(&self, last_s: f64) -> Result<(), Code> {
-        if !self.time_s.is_finite() || !self.dt_s.is_finite() {
-            return Err(Code::ERROR_NOT_FINITE);
+    /// What a device measured at `time_s`, `dt_s` after the last time. It keeps the tool that it is of.
+    pub fn measured(&self, state: &ToolState, time_s: f64, dt_s: f64) -> Self {
+        Self {
+            buttons: state.buttons,
+            time_s,
+            dt_s,
+            position: state.position.to_array(),
+            orientation: state.orientation.to_array(),
+            velocity: state.velocity.to_array(),
+            angular_velocity: state.angular_velocity.to_array(),
+            ..*self
         }
-        let in_order = self.time_s >= last_s && self.time_s <= LATEST_S && self.dt_s >= 0.0;
-        if in_order { Ok(()) } else { Err(Code::ERROR_TIME) }
     }
+
+    fn check_time(&self, last_s: f64) -> Result<(), Code> {
+        check_time(self.time_s)?;
+        check_dt(self.dt_s)?;
+        if self.time_s >= last_s { Ok(()) } else { Err(Code::ERROR_TIME) }
+    }
+}
+
+/// Refuses a time since the last tick that cannot be.
+pub fn check_dt(dt_s: f64) -> Result<(), Code> {
+    if !dt_s.is_finite() {
+        return Err(Code::ERROR_NOT_FINITE);
+    }
+    if dt_s >= 0.0 { Ok(()) } else { Err(Code::ERROR_TIME) }
+}
+
+/// Refuses a time that is none of a session's clock.
+pub fn check_time(time_s: f64) -> Result<(), Code> {
+    if !time_s.is_finite() {
+        return Err(Code::ERROR_NOT_FINITE);
+    }
+    if (0.0..=LATEST_S).contains(&time_s) { Ok(()) } else { Err(Code::ERROR_TIME) }
 }
 
 /// Refuses what is no unit quaternion.
@@ -110,6 +138,6 @@ pub fn check_orientation(orientation: DQuat) -> Result<(), Code> {
 
 /// See the header.
 #[unsafe(no_mangle)]
-pub extern "C" fn hapflow_tool_state_init(state: Out<ToolStateIn>, size: u32) -> Code {
-    fence(|| state.init(&ToolStateIn::DEFAULT, size).map(|()| Code::OK))
+pub extern "C" fn hapflow_tool_state_init(state: Out<ToolStateRecord>, size: u32) -> Code {
+    fence(|| state.init(&ToolStateRecord::DEFAULT, size).map(|()| Code::OK))
 }

@@ -26,6 +26,7 @@ mod session;
 pub mod settings;
 pub mod signal;
 mod threads;
+mod tick_times;
 mod tool_lane;
 mod value;
 
@@ -41,5 +42,6 @@ pub use scene::{
 pub use scene_file::parse;
 pub use servo::{ServoReport, ServoUnit};
 pub use session::{Control, Drive, Session, SessionOptions, open_device};
-pub use threads::{FluidPace, SERVO_PRIORITY, TickTimes};
+pub use threads::{FluidPace, SERVO_PRIORITY, ServoPace};
+pub use tick_times::TickTimes;
 pub use value::Value;

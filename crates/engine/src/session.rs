@@ -4,7 +4,8 @@ use crate::fluid_unit::{FluidReport, FluidUnit};
 use crate::obstacles::{ObstacleMover, Obstacles, obstacle_poses};
 use crate::scene::{BackendKind, DeviceKind, Scene, ToolSettings};
 use crate::servo::{ServoReport, ServoSettings, ServoUnit};
-use crate::threads::{FluidPace, FluidThread, ServoThread, TickTimes};
+use crate::threads::{FluidPace, FluidThread, ServoPace, ServoThread};
+use crate::tick_times::TickTimes;
 use crate::tool_lane::ToolLane;
 use crate::{SceneError, Value, settings};
 use glam::DVec3;
@@ -154,7 +155,12 @@ pub struct Control {
 impl Control {
     /// No force from the next tick on, until [`clear_faults`](Self::clear_faults). Thread: any.
     pub fn emergency_stop(&self) {
-        self.flags.raise(FaultSet::EMERGENCY_STOP.bits());
+        self.raise(FaultSet::EMERGENCY_STOP);
+    }
+
+    /// Raises faults, on all tools from their next tick on. Thread: any.
+    pub fn raise(&self, faults: FaultSet) {
+        self.flags.raise(faults.bits());
     }
 
     /// Takes back every fault; the force ramps in. Thread: any.
@@ -378,6 +384,16 @@ impl Session {
     /// What the system granted the first owned servo thread.
     pub fn realtime_status(&self) -> Option<RealtimeStatus> {
         self.owned.servos.first().map(ServoThread::status)
+    }
+
+    /// How the owned servo of tool `tool` (from 0) keeps time; none if it is not owned.
+    pub fn servo_pace(&mut self, tool: usize) -> Option<ServoPace> {
+        self.owned.servos.get_mut(tool).map(ServoThread::pace)
+    }
+
+    /// How the fluid keeps up, if it is owned.
+    pub fn fluid_pace(&mut self) -> Option<FluidPace> {
+        self.owned.fluid.as_mut().map(FluidThread::pace)
     }
 
     /// Whether all owned servos still tick; one ends by itself when its device is lost.

@@ -3,10 +3,11 @@
 use crate::SceneError;
 use crate::fluid_unit::FluidUnit;
 use crate::servo::ServoUnit;
+use crate::tick_times::TickTimes;
 use hapflow_devices::HapticDevice;
 use hapflow_haptics::{FaultSet, GatedWrench};
 use hapflow_realtime::{
-    Clock, HostClock, LatestReader, LatestWriter, RealtimeStatus, RealtimeThread, latest,
+    Clock, Grant, HostClock, LatestReader, LatestWriter, RealtimeStatus, RealtimeThread, latest,
     set_normal_priority, spawn_realtime,
 };
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -18,48 +19,26 @@ use std::thread::JoinHandle;
 const TICK_NS: u64 = 1_000_000;
 /// Priority of the servo thread, SCHED_FIFO.
 pub const SERVO_PRIORITY: u8 = 80;
-/// Entries of the tick histogram: 0.1 µs each, then all that is longer.
-const TICK_BINS: usize = 2000;
+/// Ticks after which main sees their times anew.
+const TELL_TICKS: u64 = 64;
 
-/// Times of the servo's ticks, as a histogram.
+/// How an owned servo keeps time.
 #[derive(Clone, Debug)]
-pub struct TickTimes {
-    bins: Vec<u32>,
-    /// Ticks that began more than half a period late.
-    pub late: u64,
-}
-
-impl Default for TickTimes {
-    fn default() -> Self {
-        Self { bins: vec![0; TICK_BINS], late: 0 }
-    }
-}
-
-impl TickTimes {
-    /// Adds a tick of `ns` nanoseconds.
-    pub fn add(&mut self, ns: u64) {
-        self.bins[(ns as usize / 100).min(TICK_BINS - 1)] += 1;
-    }
-
-    /// The time (s) that the share `quantile` (0..1) of all ticks stayed below.
-    pub fn quantile_s(&self, quantile: f64) -> f64 {
-        let total: u64 = self.bins.iter().map(|n| u64::from(*n)).sum();
-        let mut below = 0;
-        for (k, n) in self.bins.iter().enumerate() {
-            below += u64::from(*n);
-            if below as f64 >= quantile * total as f64 && total > 0 {
-                return (k + 1) as f64 * 1e-7;
-            }
-        }
-        0.0
-    }
+pub struct ServoPace {
+    /// What the system said to its priority.
+    pub priority: Grant,
+    /// Whether it still ticks; it ends by itself when its device is lost, or in a panic.
+    pub runs: bool,
+    /// Its ticks so far; they lag by up to 64 ticks.
+    pub ticks: TickTimes,
 }
 
 /// The servo's thread: it paces itself at 1 kHz and owns the device.
 pub struct ServoThread {
     stop: Arc<AtomicBool>,
-    thread: Option<RealtimeThread<TickTimes>>,
+    thread: Option<RealtimeThread<()>>,
     status: RealtimeStatus,
+    times: LatestReader<TickTimes>,
 }
 
 impl std::fmt::Debug for ServoThread {
@@ -76,12 +55,13 @@ impl ServoThread {
     ) -> Result<Self, SceneError> {
         let stop = Arc::new(AtomicBool::new(false));
         let theirs = Arc::clone(&stop);
+        let (tell, times) = latest(TickTimes::default());
         let thread = spawn_realtime("hapflow-servo", SERVO_PRIORITY, move || {
-            servo_loop(servo, device, &*clock, &theirs)
+            servo_loop(servo, device, &*clock, &theirs, tell)
         })
         .map_err(|cause| SceneError::Thread { name: "servo", cause })?;
         let status = thread.status().clone();
-        Ok(Self { stop, thread: Some(thread), status })
+        Ok(Self { stop, thread: Some(thread), status, times })
     }
 
     /// What the system granted.
@@ -94,10 +74,20 @@ impl ServoThread {
         self.thread.as_ref().is_none_or(RealtimeThread::is_finished)
     }
 
+    /// How it keeps time.
+    pub fn pace(&mut self) -> ServoPace {
+        let (priority, runs) = (self.status.priority.clone(), !self.is_finished());
+        self.times.update();
+        ServoPace { priority, runs, ticks: self.times.get().clone() }
+    }
+
     /// Stops it, with zero force, and gives its ticks' times.
     pub fn stop(&mut self) -> TickTimes {
         self.stop.store(true, Ordering::Release);
-        self.thread.take().and_then(|t| t.join().ok()).unwrap_or_default()
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+        self.pace().ticks
     }
 }
 
@@ -112,10 +102,12 @@ fn servo_loop(
     mut device: Box<dyn HapticDevice>,
     clock: &dyn Clock,
     stop: &AtomicBool,
-) -> TickTimes {
+    mut tell: LatestWriter<TickTimes>,
+) {
     let mut times = TickTimes::default();
     let mut due = clock.now_ns() + TICK_NS;
     let mut last = clock.now_ns();
+    let mut ticks = 0_u64;
     while !stop.load(Ordering::Acquire) {
         clock.wait_until_ns(due);
         let now = clock.now_ns();
@@ -128,6 +120,10 @@ fn servo_loop(
             break;
         }
         times.add(clock.now_ns() - now);
+        ticks += 1;
+        if ticks.is_multiple_of(TELL_TICKS) {
+            tell_times(&mut tell, &times);
+        }
         last = now;
         // Ticks that were missed are not made up for.
         due = if late > TICK_NS { now + TICK_NS } else { due + TICK_NS };
@@ -136,7 +132,12 @@ fn servo_loop(
         let _ = device.write(GatedWrench::ZERO, 1e-3);
         device.close();
     }));
-    times
+    tell_times(&mut tell, &times);
+}
+
+fn tell_times(tell: &mut LatestWriter<TickTimes>, times: &TickTimes) {
+    tell.buffer().copy_from(times);
+    tell.publish();
 }
 
 /// One tick with the device; false when it is lost.
@@ -181,6 +182,12 @@ impl FluidThread {
         Ok(Self { stop, thread: Some(thread), pace, host })
     }
 
+    /// How it keeps up so far.
+    pub fn pace(&mut self) -> FluidPace {
+        self.pace.update();
+        *self.pace.get()
+    }
+
     /// Stops it after its frame, and says how it kept up.
     pub fn stop(&mut self) -> FluidPace {
         self.stop.store(true, Ordering::Release);
@@ -190,8 +197,7 @@ impl FluidThread {
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
-        self.pace.update();
-        *self.pace.get()
+        self.pace()
     }
 }
 

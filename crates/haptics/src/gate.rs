@@ -99,6 +99,12 @@ impl SafetyGate {
         GatedWrench::new(self.sent)
     }
 
+    /// A tick without force: it is taken off at once, and no slew limit holds it up. What comes next rises from zero.
+    pub fn release(&mut self) -> GatedWrench {
+        self.sent = Wrench::ZERO;
+        GatedWrench::ZERO
+    }
+
     /// Every latched fault, and whatever else the newest tick found.
     pub fn faults(&self) -> FaultSet {
         self.latched | self.newest

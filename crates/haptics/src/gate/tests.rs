@@ -294,3 +294,13 @@ fn whatever_comes_in_what_goes_out_is_safe() {
     let felt: usize = (1..=60).map(|seed| check_run(seed, &NASTY) + check_run(seed, &FINITE)).sum();
     assert!(felt > 60_000, "the runs were nearly all faults: {felt}");
 }
+
+#[test]
+fn a_release_is_at_once_and_what_comes_next_rises_from_zero() {
+    let mut gate = gate(|s| s.ramp_in_s = 0.0);
+    assert!(run(&mut gate, 100, 3.0, &FRESH) > 2.99);
+    assert_eq!(gate.release(), GatedWrench::ZERO);
+    let next = run(&mut gate, 1, 3.0, &FRESH);
+    assert!((next - 1.0).abs() < 1e-9, "{next}: 1000 N/s for 1 ms");
+    assert!(gate.latched().is_empty());
+}
