@@ -9,7 +9,7 @@ use c_support::header::{Prototype, prototypes};
 use c_support::{
     Api, DRIVE_OWNED, Device, Session, SessionConfig, ToolState, Variant, Wrench, code, made, root,
 };
-use std::ffi::CStr;
+use std::ffi::{CStr, c_char, c_void};
 use std::ptr::{null, null_mut};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::{env, fs, thread};
@@ -79,6 +79,34 @@ fn with_devices_in(api: &Api, toml: &str, servo_drive: u32, devices: &[Device]) 
     let (device_count, devices) = (devices.len() as u32, devices.as_ptr());
     let config = SessionConfig { servo_drive, device_count, devices, ..api.config() };
     (api.try_create_with(toml, config).err().unwrap_or(code::OK), None)
+}
+
+/// Calls `call` for a session from its own log function.
+fn from_the_log(api: &Api, call: fn(&Api, Session) -> i32) -> Came {
+    struct Told {
+        api: Api,
+        session: Session,
+        call: fn(&Api, Session) -> i32,
+        came: Option<i32>,
+    }
+    extern "C" fn listen(_: u32, _: *const c_char, user: *mut c_void) {
+        // SAFETY: it is `told`, which nobody else looks at during the poll.
+        let told = unsafe { &mut *user.cast::<Told>() };
+        told.came = Some((told.call)(&told.api, told.session));
+    }
+    let mut told = Told { api: *api, session: Session::default(), call, came: None };
+    let log_user = (&raw mut told).cast();
+    let config = SessionConfig { log: Some(listen), log_user, ..api.config() };
+    let session = api.try_create_with(c_support::JET, config).unwrap();
+    // SAFETY: `told` lives, and is looked at by this thread alone.
+    unsafe { (*log_user.cast::<Told>()).session = session };
+    assert_eq!((api.session_emergency_stop)(session), code::OK);
+    assert_eq!((api.session_poll)(session), code::OK);
+    (told.came.unwrap(), None)
+}
+
+fn read_radius(api: &Api, session: Session) -> i32 {
+    api.get(session, "tool.radius").err().unwrap_or(code::OK)
 }
 
 fn set_text(api: &Api, session: Session, path: &CStr, value: &CStr) -> Came {
@@ -279,6 +307,14 @@ const MISTAKES: &[Mistake] = &[
             let last = std::iter::repeat_with(|| api.open(c"null", c"")).take(65).last();
             (last.unwrap().unwrap_err(), None)
         },
+    },
+    Mistake {
+        what: "a log function calls main of its session",
+        make: |api, _| from_the_log(api, read_radius),
+    },
+    Mistake {
+        what: "a log function destroys its session",
+        make: |api, _| from_the_log(api, |api, session| (api.session_destroy)(session)),
     },
     Mistake {
         what: "an obstacle that there is not",

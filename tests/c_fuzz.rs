@@ -294,7 +294,7 @@ impl Fuzz {
         let api = self.api;
         self.memory.fill(GUARD);
         let which = self.random.below(8);
-        let right = [72, 136, 280, 32, 40, 56, 72, 80][which as usize];
+        let right = [88, 136, 280, 32, 40, 56, 72, 80][which as usize];
         let size = self.struct_size(right);
         match which {
             0 => (api.session_config_init)(self.place(), size),
@@ -366,6 +366,7 @@ impl Fuzz {
                 let orientation = if self.random.below(2) == 0 { [0.0, 0.0, 0.0, 1.0] } else { [w; 4] };
                 (api.obstacle_move)(session, index, &[x, 0.0, 0.0], &orientation)
             }
+            23 if self.random.below(3) == 0 => (api.session_poll)(session),
             23 if self.random.below(2) == 0 => (api.obstacle_count)(session, self.place()),
             23 => (api.obstacle_publish)(session),
             24..28 => self.use_device(),

@@ -104,6 +104,7 @@ fn stale_and_doubled_handles_are_codes() {
         assert_eq!((api.session_report_of)(handle, 1, null_mut()), code::HANDLE);
         assert_eq!((api.session_tool_count)(handle, null_mut()), code::HANDLE);
         assert_eq!((api.session_servo_pace)(handle, 0, null_mut()), code::HANDLE);
+        assert_eq!((api.session_poll)(handle), code::HANDLE);
         let device = Device { id: handle.id };
         assert_eq!((api.device_read)(device, 0.0, null_mut()), code::HANDLE);
         assert_eq!((api.device_write)(device, null(), 1e-3), code::HANDLE);

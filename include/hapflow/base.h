@@ -19,7 +19,7 @@
  * - On failure outputs are untouched. But a hapflow_wrench is always written, and is then zero.
  * - Everything is SI and double, right-handed, y up. Quaternions are x, y, z, w.
  * - A pointer must not be null unless its function says so (HAPFLOW_ERROR_NULL). It need not be aligned. What a
- *   pointer points to is the caller's, and is not looked at after the call. Texts are UTF-8 and end with a NUL.
+ *   pointer points to is the caller's, and is not looked at after the call (hapflow_session_config.log_user never is). Texts are UTF-8 and end with a NUL.
  * - Texts that the library shows are its own, never change, and last as long as is said where they stand.
  * - A number that is NaN or infinite is refused, everywhere (HAPFLOW_ERROR_NOT_FINITE).
  * - Handles are values. A stale one is refused (HAPFLOW_ERROR_HANDLE), as is zero, which is null.

@@ -41,5 +41,6 @@
 #include <hapflow/fluid.h>
 #include <hapflow/obstacle.h>
 #include <hapflow/report.h>
+#include <hapflow/log.h>
 
 #endif

@@ -32,6 +32,19 @@ enum {
     HAPFLOW_DRIVE_OWNED = 1, /* threads of the session */
 };
 
+/* How much what is told matters. */
+enum {
+    HAPFLOW_LOG_ERROR = 1, /* there is no force, until a person has seen to it */
+    HAPFLOW_LOG_WARNING = 2, /* it is not as good as it should be */
+    HAPFLOW_LOG_INFO = 3, /* good to know */
+};
+
+/* Gets one line of text, without its end, at a time; `level` is HAPFLOW_LOG_..., `text` lasts for the call, and `user`
+ * is hapflow_session_config.log_user. Called by hapflow_session_poll alone, on the thread that calls it. Every function
+ * may be called from within, but those of class [main] of the same session, and hapflow_session_destroy of it, are
+ * refused (HAPFLOW_ERROR_BUSY). It must return: no exception and no longjmp may leave it. */
+typedef void (*hapflow_log_function)(uint32_t level, const char* text, void* user);
+
 /* How a session is made. Exactly one of `scene` and `toml` is given. */
 typedef struct hapflow_session_config {
     uint32_t kind; /* HAPFLOW_KIND_SESSION_CONFIG */
@@ -50,9 +63,11 @@ typedef struct hapflow_session_config {
      * be made they stay as they were; but where the system starts no thread they are closed.) With a count of 0 it is
      * not looked at, and the device of the scene, as run.device has it, is opened for the first tool. */
     const hapflow_device* devices;
+    hapflow_log_function log; /* what is told of the session goes there; or null */
+    void* log_user; /* handed to it, and not looked at */
 } hapflow_session_config;
 #if UINTPTR_MAX > 0xffffffffu
-HAPFLOW_ASSERT_SIZE(hapflow_session_config, 72);
+HAPFLOW_ASSERT_SIZE(hapflow_session_config, 88);
 #endif
 
 /* Fills `config` with the defaults, for a struct of `size` bytes: sizeof *config. [any] Errors: NULL, STRUCT. */
@@ -66,7 +81,7 @@ HAPFLOW_API hapflow_result hapflow_session_create(const hapflow_session_config* 
 
 /* Ends a session; its handle is stale from then on. [main, several at once] Threads of its own end first, the servos
  * before the fluid, with zero force on their devices. Calls of other threads that are under way are waited for; later
- * ones are refused. Errors: HANDLE. */
+ * ones are refused. Errors: HANDLE, BUSY (from its log function). */
 HAPFLOW_API hapflow_result hapflow_session_destroy(hapflow_session session);
 
 /* No force on any tool from its next tick on, until the faults are cleared. [any] Errors: HANDLE. */

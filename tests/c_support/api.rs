@@ -26,7 +26,12 @@ pub struct SessionConfig {
     pub servo_drive: u32,
     pub device_count: u32,
     pub devices: *const Device,
+    pub log: Option<LogFunction>,
+    pub log_user: *mut c_void,
 }
+
+/// `hapflow_log_function`: level, text, user.
+pub type LogFunction = extern "C" fn(u32, *const c_char, *mut c_void);
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -204,6 +209,7 @@ functions! {
     device_write: fn(Device, *const Wrench, f64) -> i32;
     device_clear_faults: fn(Device) -> i32;
     servo_pace_init: fn(*mut ServoPace, u32) -> i32;
+    session_poll: fn(Session) -> i32;
     session_servo_pace: fn(Session, u32, *mut ServoPace) -> i32;
     setting_info_init: fn(*mut SettingInfo, u32) -> i32;
     session_setting_count: fn(Session, *mut u32) -> i32;

@@ -6,7 +6,7 @@
 //! need not be aligned.
 
 use crate::code::{Code, Outcome};
-use std::ffi::{CStr, CString, c_char};
+use std::ffi::{CStr, CString, c_char, c_void};
 
 /// Largest struct that is believed; what is larger was never initialised.
 const LARGEST: usize = 4096;
@@ -192,6 +192,42 @@ impl Text {
         // SAFETY: not null, hence `length` bytes, which nobody writes during the call.
         let bytes = unsafe { std::slice::from_raw_parts(self.0.cast::<u8>(), length) };
         std::str::from_utf8(bytes).map_err(|_| Code::ERROR_TEXT)
+    }
+}
+
+/// A function of the host that takes lines of text.
+#[repr(transparent)]
+#[derive(Clone, Copy)]
+pub struct LogFunction(Option<unsafe extern "C" fn(u32, *const c_char, *mut c_void)>);
+
+/// What the host wants it to be given.
+#[repr(transparent)]
+#[derive(Clone, Copy)]
+pub struct LogUser(*mut c_void);
+
+// SAFETY: it is handed back to the host alone, which says itself by which threads it polls.
+unsafe impl Send for LogUser {}
+
+impl LogUser {
+    /// None.
+    pub const NULL: Self = Self(std::ptr::null_mut());
+}
+
+impl LogFunction {
+    /// None.
+    pub const NULL: Self = Self(None);
+
+    pub fn is_null(self) -> bool {
+        self.0.is_none()
+    }
+
+    /// Tells it a line.
+    pub fn tell(self, level: u32, text: &str, user: LogUser) {
+        if let Some(function) = self.0 {
+            let text = Shown::new(text);
+            // SAFETY: the header asks for a function of this type, which returns.
+            unsafe { function(level, text.text().0, user.0) };
+        }
     }
 }
 

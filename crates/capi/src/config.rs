@@ -1,12 +1,13 @@
 //! `hapflow_session_config`: what a session is made of.
 
-use crate::caller::{In, Out, Record, Text};
+use crate::caller::{In, LogFunction, LogUser, Out, Record, Text};
 use crate::code::{Code, Failure};
 use crate::contract::as_in_header;
 use crate::fence::fence;
 use crate::generated as c;
 use crate::generated::HAPFLOW_MAX_TOOLS;
 use crate::handle::DeviceHandle;
+use crate::log::Log;
 use crate::scene_source::SceneSource;
 use hapflow_engine::{Drive, Scene};
 use std::ffi::c_void;
@@ -31,6 +32,8 @@ pub struct SessionConfig {
     servo_drive: u32,
     device_count: u32,
     devices: In<DeviceHandle>,
+    log: LogFunction,
+    log_user: LogUser,
 }
 
 as_in_header!(
@@ -47,6 +50,8 @@ as_in_header!(
         servo_drive,
         device_count,
         devices,
+        log,
+        log_user,
     }
 );
 
@@ -71,6 +76,8 @@ impl SessionConfig {
         servo_drive: c::HAPFLOW_DRIVE_HOST,
         device_count: 0,
         devices: In::NULL,
+        log: LogFunction::NULL,
+        log_user: LogUser::NULL,
     };
 
     /// Refuses what this version does not know.
@@ -107,6 +114,11 @@ impl SessionConfig {
     pub fn scene(&self) -> Result<Scene, Failure> {
         let Self { scene, toml, toml_length, settings, .. } = *self;
         SceneSource { scene, toml, toml_length, settings }.read(None)
+    }
+
+    /// What is told of a session with so many tools, if anybody listens.
+    pub fn log(&self, tools: usize) -> Option<Log> {
+        (!self.log.is_null()).then(|| Log::new(self.log, self.log_user, tools))
     }
 
     /// The devices of an owned servo that the host gives.

@@ -4,13 +4,13 @@
 //! says which pointer each of them is; with it, every struct's fields and every function's arguments are compared by
 //! type, not only by size.
 
-use crate::caller::{Buffer, In, Out, Text};
+use crate::caller::{Buffer, In, LogFunction, LogUser, Out, Text};
 use crate::code::Code;
 use crate::generated as c;
 use crate::handle::{DeviceHandle, Handle, Id};
 use crate::{
-    build_info, catalog, config, device, device_config, fluid, library, obstacle, report, servo, servo_pace,
-    session, setting_info, tool_state,
+    build_info, catalog, config, device, device_config, fluid, library, log, obstacle, report, servo,
+    servo_pace, session, setting_info, tool_state,
 };
 use std::ffi::{c_char, c_void};
 
@@ -42,6 +42,7 @@ same_in_c! {
     u32 = u32, u64 = u64, Id = u64, usize = usize, f64 = f64,
     [f64; 3] = [f64; 3], [f64; 4] = [f64; 4],
     Text = *const c_char, *const c_char = *const c_char, *const c_void = *const c_void,
+    LogFunction = c::hapflow_log_function, LogUser = *mut c_void,
     Code = c::hapflow_result, Handle = c::hapflow_session, DeviceHandle = c::hapflow_device,
 }
 
@@ -171,6 +172,7 @@ functions! {
     report::hapflow_report_init(_, _);
     session::hapflow_session_report(_, _);
     session::hapflow_session_report_of(_, _, _);
+    log::hapflow_session_poll(_);
 }
 
 #[cfg(test)]

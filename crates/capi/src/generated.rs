@@ -263,6 +263,17 @@ const _: () = {
 pub const HAPFLOW_DRIVE_HOST: _bindgen_ty_2 = 0;
 pub const HAPFLOW_DRIVE_OWNED: _bindgen_ty_2 = 1;
 pub type _bindgen_ty_2 = ::core::ffi::c_uint;
+pub const HAPFLOW_LOG_ERROR: _bindgen_ty_3 = 1;
+pub const HAPFLOW_LOG_WARNING: _bindgen_ty_3 = 2;
+pub const HAPFLOW_LOG_INFO: _bindgen_ty_3 = 3;
+pub type _bindgen_ty_3 = ::core::ffi::c_uint;
+pub type hapflow_log_function = ::core::option::Option<
+    unsafe extern "C" fn(
+        level: u32,
+        text: *const ::core::ffi::c_char,
+        user: *mut ::core::ffi::c_void,
+    ),
+>;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_session_config {
@@ -278,13 +289,15 @@ pub struct hapflow_session_config {
     pub servo_drive: u32,
     pub device_count: u32,
     pub devices: *const hapflow_device,
+    pub log: hapflow_log_function,
+    pub log_user: *mut ::core::ffi::c_void,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 #[cfg(target_pointer_width = "64")]
 const _: () = {
     [
         "Size of hapflow_session_config",
-    ][::core::mem::size_of::<hapflow_session_config>() - 72usize];
+    ][::core::mem::size_of::<hapflow_session_config>() - 88usize];
     [
         "Alignment of hapflow_session_config",
     ][::core::mem::align_of::<hapflow_session_config>() - 8usize];
@@ -324,14 +337,20 @@ const _: () = {
     [
         "Offset of field: hapflow_session_config::devices",
     ][::core::mem::offset_of!(hapflow_session_config, devices) - 64usize];
+    [
+        "Offset of field: hapflow_session_config::log",
+    ][::core::mem::offset_of!(hapflow_session_config, log) - 72usize];
+    [
+        "Offset of field: hapflow_session_config::log_user",
+    ][::core::mem::offset_of!(hapflow_session_config, log_user) - 80usize];
 };
-pub const HAPFLOW_SETTING_NUMBER: _bindgen_ty_3 = 1;
-pub const HAPFLOW_SETTING_INTEGER: _bindgen_ty_3 = 2;
-pub const HAPFLOW_SETTING_SWITCH: _bindgen_ty_3 = 3;
-pub const HAPFLOW_SETTING_CHOICE: _bindgen_ty_3 = 4;
-pub const HAPFLOW_SETTING_TEXT: _bindgen_ty_3 = 5;
-pub const HAPFLOW_SETTING_VECTOR: _bindgen_ty_3 = 6;
-pub type _bindgen_ty_3 = ::core::ffi::c_uint;
+pub const HAPFLOW_SETTING_NUMBER: _bindgen_ty_4 = 1;
+pub const HAPFLOW_SETTING_INTEGER: _bindgen_ty_4 = 2;
+pub const HAPFLOW_SETTING_SWITCH: _bindgen_ty_4 = 3;
+pub const HAPFLOW_SETTING_CHOICE: _bindgen_ty_4 = 4;
+pub const HAPFLOW_SETTING_TEXT: _bindgen_ty_4 = 5;
+pub const HAPFLOW_SETTING_VECTOR: _bindgen_ty_4 = 6;
+pub type _bindgen_ty_4 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_setting_info {
@@ -394,10 +413,10 @@ const _: () = {
         "Offset of field: hapflow_setting_info::usual",
     ][::core::mem::offset_of!(hapflow_setting_info, usual) - 72usize];
 };
-pub const HAPFLOW_PRIORITY_NOT_ASKED: _bindgen_ty_4 = 0;
-pub const HAPFLOW_PRIORITY_GRANTED: _bindgen_ty_4 = 1;
-pub const HAPFLOW_PRIORITY_REFUSED: _bindgen_ty_4 = 2;
-pub type _bindgen_ty_4 = ::core::ffi::c_uint;
+pub const HAPFLOW_PRIORITY_NOT_ASKED: _bindgen_ty_5 = 0;
+pub const HAPFLOW_PRIORITY_GRANTED: _bindgen_ty_5 = 1;
+pub const HAPFLOW_PRIORITY_REFUSED: _bindgen_ty_5 = 2;
+pub type _bindgen_ty_5 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_servo_pace {
@@ -456,18 +475,18 @@ const _: () = {
         "Offset of field: hapflow_servo_pace::device",
     ][::core::mem::offset_of!(hapflow_servo_pace, device) - 64usize];
 };
-pub const HAPFLOW_FAULT_INPUT: _bindgen_ty_5 = 1;
-pub const HAPFLOW_FAULT_FORCE: _bindgen_ty_5 = 2;
-pub const HAPFLOW_FAULT_PANIC: _bindgen_ty_5 = 4;
-pub const HAPFLOW_FAULT_DEVICE_LOST: _bindgen_ty_5 = 16;
-pub const HAPFLOW_FAULT_EMERGENCY_STOP: _bindgen_ty_5 = 32;
-pub const HAPFLOW_FAULT_FLUID: _bindgen_ty_5 = 128;
-pub const HAPFLOW_FAULT_STALE: _bindgen_ty_5 = 8;
-pub const HAPFLOW_FAULT_PATH_OVERFLOW: _bindgen_ty_5 = 64;
-pub const HAPFLOW_FAULT_LATE_TICK: _bindgen_ty_5 = 256;
-pub const HAPFLOW_FAULT_FORCE_LIMITED: _bindgen_ty_5 = 512;
-pub const HAPFLOW_FAULT_SLEW_LIMITED: _bindgen_ty_5 = 1024;
-pub type _bindgen_ty_5 = ::core::ffi::c_uint;
+pub const HAPFLOW_FAULT_INPUT: _bindgen_ty_6 = 1;
+pub const HAPFLOW_FAULT_FORCE: _bindgen_ty_6 = 2;
+pub const HAPFLOW_FAULT_PANIC: _bindgen_ty_6 = 4;
+pub const HAPFLOW_FAULT_DEVICE_LOST: _bindgen_ty_6 = 16;
+pub const HAPFLOW_FAULT_EMERGENCY_STOP: _bindgen_ty_6 = 32;
+pub const HAPFLOW_FAULT_FLUID: _bindgen_ty_6 = 128;
+pub const HAPFLOW_FAULT_STALE: _bindgen_ty_6 = 8;
+pub const HAPFLOW_FAULT_PATH_OVERFLOW: _bindgen_ty_6 = 64;
+pub const HAPFLOW_FAULT_LATE_TICK: _bindgen_ty_6 = 256;
+pub const HAPFLOW_FAULT_FORCE_LIMITED: _bindgen_ty_6 = 512;
+pub const HAPFLOW_FAULT_SLEW_LIMITED: _bindgen_ty_6 = 1024;
+pub type _bindgen_ty_6 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_report {
@@ -725,4 +744,5 @@ unsafe extern "C" {
         tool: u32,
         report: *mut hapflow_report,
     ) -> hapflow_result;
+    pub fn hapflow_session_poll(session: hapflow_session) -> hapflow_result;
 }

@@ -8,6 +8,7 @@
 //! | `session`, `servo`, `fluid`, `obstacle` | the functions of a session, by thread class |
 //! | `device` | those of a device in a loop of the host |
 //! | `config`, `device_config`, `tool_state`, `wrench`, `report`, `servo_pace`, `setting_info` | the header's structs |
+//! | `log` | what a session has to say, told to the host |
 //! | `scene_source` | what the two configurations have in common |
 //! | `build_info`, `catalog` | what the build has; shipped scenes and devices |
 //! | `code` | results |
@@ -35,6 +36,7 @@ mod handle;
 mod hooks;
 mod lane;
 mod library;
+mod log;
 mod obstacle;
 mod report;
 mod scene_source;

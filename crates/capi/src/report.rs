@@ -104,19 +104,23 @@ pub extern "C" fn hapflow_report_init(report: Out<Report>, size: u32) -> Code {
     fence(|| report.init(&Report::empty(), size).map(|()| Code::OK))
 }
 
-/// The header's faults are the servo's.
-const FAULTS: &[(u32, FaultSet)] = &[
-    (c::HAPFLOW_FAULT_INPUT, FaultSet::NON_FINITE_INPUT),
-    (c::HAPFLOW_FAULT_FORCE, FaultSet::NON_FINITE_FORCE),
-    (c::HAPFLOW_FAULT_PANIC, FaultSet::PANIC),
-    (c::HAPFLOW_FAULT_STALE, FaultSet::STALE),
-    (c::HAPFLOW_FAULT_DEVICE_LOST, FaultSet::DEVICE_LOST),
-    (c::HAPFLOW_FAULT_EMERGENCY_STOP, FaultSet::EMERGENCY_STOP),
-    (c::HAPFLOW_FAULT_PATH_OVERFLOW, FaultSet::PATH_OVERFLOW),
-    (c::HAPFLOW_FAULT_FLUID, FaultSet::FLUID_FAULT),
-    (c::HAPFLOW_FAULT_LATE_TICK, FaultSet::LATE_TICK),
-    (c::HAPFLOW_FAULT_FORCE_LIMITED, FaultSet::FORCE_LIMITED),
-    (c::HAPFLOW_FAULT_SLEW_LIMITED, FaultSet::SLEW_LIMITED),
+/// The header's faults are the servo's; each in words.
+pub const FAULTS: &[(u32, FaultSet, &str)] = &[
+    (c::HAPFLOW_FAULT_INPUT, FaultSet::NON_FINITE_INPUT, "a tool state was refused"),
+    (c::HAPFLOW_FAULT_FORCE, FaultSet::NON_FINITE_FORCE, "a computed force was not finite"),
+    (c::HAPFLOW_FAULT_PANIC, FaultSet::PANIC, "a defect of the library"),
+    (c::HAPFLOW_FAULT_STALE, FaultSet::STALE, "the fluid's newest frame is too old: the force fades"),
+    (c::HAPFLOW_FAULT_DEVICE_LOST, FaultSet::DEVICE_LOST, "the device no longer answers"),
+    (c::HAPFLOW_FAULT_EMERGENCY_STOP, FaultSet::EMERGENCY_STOP, "emergency stop"),
+    (
+        c::HAPFLOW_FAULT_PATH_OVERFLOW,
+        FaultSet::PATH_OVERFLOW,
+        "part of the tool's path never reached the fluid",
+    ),
+    (c::HAPFLOW_FAULT_FLUID, FaultSet::FLUID_FAULT, "the fluid gave up"),
+    (c::HAPFLOW_FAULT_LATE_TICK, FaultSet::LATE_TICK, "the servo ticked late"),
+    (c::HAPFLOW_FAULT_FORCE_LIMITED, FaultSet::FORCE_LIMITED, "the wanted force was larger than allowed"),
+    (c::HAPFLOW_FAULT_SLEW_LIMITED, FaultSet::SLEW_LIMITED, "the force was to change faster than allowed"),
 ];
 
 const _: () = {

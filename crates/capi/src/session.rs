@@ -9,6 +9,7 @@ use crate::fluid::FluidSide;
 use crate::handle::Handle;
 use crate::hooks;
 use crate::lane::Faultable;
+use crate::log::{Log, check_outside};
 use crate::obstacle::ObstacleSide;
 use crate::report::Report;
 use crate::servo::ServoSide;
@@ -28,6 +29,7 @@ pub struct MainSide {
     control: Control,
     names: Names,
     paces: Paces,
+    log: Option<Log>,
     /// Its settings, shown to C; made when it is first asked for.
     panel: Option<Panel>,
     particles: Taken,
@@ -60,6 +62,13 @@ impl MainSide {
         }
         pace.fill(&self.paces.of(&mut self.session, tool as usize))?;
         Ok(Code::OK)
+    }
+
+    /// Tells the host what has happened, if it listens.
+    pub fn poll(&mut self) {
+        if let Some(log) = &mut self.log {
+            log.poll(&mut self.session, &self.control);
+        }
     }
 
     fn no_tool(&self, tool: u32) -> Failure {
@@ -162,6 +171,7 @@ fn open(config: &SessionConfig) -> Result<Parts, Failure> {
         any: AnySide { control: control.clone(), servo_drive, tools, obstacles },
         main: MainSide {
             paces: Paces::new(&mut session, names),
+            log: config.log(session.tool_count()),
             session,
             control,
             names: Names::of(&scene),
@@ -171,7 +181,7 @@ fn open(config: &SessionConfig) -> Result<Parts, Failure> {
     })
 }
 
-fn with_main(session: Handle, body: impl FnOnce(&mut MainSide) -> Result<Code, Failure>) -> Code {
+pub fn with_main(session: Handle, body: impl FnOnce(&mut MainSide) -> Result<Code, Failure>) -> Code {
     fence_main(|| {
         let mut side = LIBRARY.main(session)?;
         hooks::panic_if_asked();
@@ -214,6 +224,7 @@ pub extern "C" fn hapflow_session_create(config: In<SessionConfig>, session: Out
 #[unsafe(no_mangle)]
 pub extern "C" fn hapflow_session_destroy(session: Handle) -> Code {
     fence_main(|| {
+        check_outside(session)?;
         drop(LIBRARY.remove(session)?);
         Ok(Code::OK)
     })
