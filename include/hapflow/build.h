@@ -13,7 +13,7 @@ HAPFLOW_BEGIN_DECLS
  *     version     release, as 0.1.0
  *     abi         every version of this interface that it speaks
  *     target      processor, operating system
- *     features    optional parts of the build
+ *     features    optional parts of the build: those of extension.h by their second word, as device; and others
  *     backends    words of the setting run.backend; likewise
  *     solvers     of fluid.solver
  *     modes       of fluid.mode

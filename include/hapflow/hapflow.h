@@ -22,7 +22,7 @@
  * Each noun has a header of its own, and may be included by itself; base.h has what holds for all of them: thread
  * classes, results, pointers, structs.
  *
- * What is optional will be asked for by name and revision, as "hapflow.fluid/1"; nothing is yet.
+ * What is optional is asked for by name and revision, as "hapflow.device/1": extension.h.
  */
 #ifndef HAPFLOW_HAPFLOW_H
 #define HAPFLOW_HAPFLOW_H
@@ -42,5 +42,6 @@
 #include <hapflow/obstacle.h>
 #include <hapflow/report.h>
 #include <hapflow/log.h>
+#include <hapflow/extension.h>
 
 #endif

@@ -209,6 +209,7 @@ functions! {
     device_write: fn(Device, *const Wrench, f64) -> i32;
     device_clear_faults: fn(Device) -> i32;
     servo_pace_init: fn(*mut ServoPace, u32) -> i32;
+    extension: fn(*const c_char) -> *const c_void;
     session_poll: fn(Session) -> i32;
     session_servo_pace: fn(Session, u32, *mut ServoPace) -> i32;
     setting_info_init: fn(*mut SettingInfo, u32) -> i32;

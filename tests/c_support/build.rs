@@ -14,6 +14,8 @@ pub enum Variant {
     Shipped,
     /// With the feature `test-hooks`.
     Hooks,
+    /// Without any optional part.
+    Bare,
 }
 
 /// The repository's root.
@@ -36,12 +38,12 @@ pub fn scratch() -> PathBuf {
 
 /// The path of libhapflow, built with this test's profile into this test's target directory.
 pub fn library(variant: Variant) -> PathBuf {
-    static BUILT: [OnceLock<PathBuf>; 2] = [OnceLock::new(), OnceLock::new()];
+    static BUILT: [OnceLock<PathBuf>; 3] = [const { OnceLock::new() }; 3];
     BUILT[variant as usize].get_or_init(|| build(variant)).clone()
 }
 
 fn build(variant: Variant) -> PathBuf {
-    // Both variants come out under one name: nobody else may build between cargo and the copy.
+    // All variants come out under one name: nobody else may build between cargo and the copy.
     let lock = File::create(scratch().join("lock")).unwrap();
     lock.lock().unwrap();
     let mut cargo = Command::new(env!("CARGO"));
@@ -56,6 +58,10 @@ fn build(variant: Variant) -> PathBuf {
         Variant::Hooks => {
             cargo.args(["--features", "test-hooks"]);
             "hooks"
+        }
+        Variant::Bare => {
+            cargo.arg("--no-default-features");
+            "bare"
         }
     };
     assert!(cargo.arg("--target-dir").arg(target).status().unwrap().success(), "{cargo:?}");

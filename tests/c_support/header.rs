@@ -75,8 +75,11 @@ pub fn structs() -> Vec<Struct> {
     let one = |part: &str| {
         let (name, body) = part.split_once('{').unwrap();
         let body = body.split_once('}').unwrap().0;
-        let field =
-            |line: &str| line.rsplit([' ', '*']).next().unwrap().split('[').next().unwrap().to_string();
+        let field = |line: &str| match line.split_once("(*") {
+            // A pointer to a function.
+            Some((_, rest)) => rest.split_once(')').unwrap().0.to_string(),
+            None => line.rsplit([' ', '*']).next().unwrap().split('[').next().unwrap().to_string(),
+        };
         let fields = body.split(';').map(str::trim).filter(|l| !l.is_empty()).map(field).collect();
         Struct { name: name.trim().into(), fields }
     };

@@ -8,8 +8,12 @@ use hapflow_engine::settings::{Kind, SETTINGS};
 use std::ffi::c_char;
 
 /// Optional parts of the build.
-const FEATURES: &[(&str, bool)] =
-    &[("test-hooks", cfg!(feature = "test-hooks")), ("debug-assertions", cfg!(debug_assertions))];
+const FEATURES: &[(&str, bool)] = &[
+    ("device", cfg!(feature = "device")),
+    ("log", cfg!(feature = "log")),
+    ("test-hooks", cfg!(feature = "test-hooks")),
+    ("debug-assertions", cfg!(debug_assertions)),
+];
 
 /// The words of a setting that is a choice.
 fn words(path: &str) -> String {

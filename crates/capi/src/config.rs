@@ -116,9 +116,9 @@ impl SessionConfig {
         SceneSource { scene, toml, toml_length, settings }.read(None)
     }
 
-    /// What is told of a session with so many tools, if anybody listens.
-    pub fn log(&self, tools: usize) -> Option<Log> {
-        (!self.log.is_null()).then(|| Log::new(self.log, self.log_user, tools))
+    /// The log of a session with so many tools.
+    pub fn log(&self, tools: usize) -> Result<Option<Log>, Failure> {
+        Log::open(self.log, self.log_user, tools)
     }
 
     /// The devices of an owned servo that the host gives.

@@ -9,8 +9,8 @@ use crate::code::Code;
 use crate::generated as c;
 use crate::handle::{DeviceHandle, Handle, Id};
 use crate::{
-    build_info, catalog, config, device, device_config, fluid, library, log, obstacle, report, servo,
-    servo_pace, session, setting_info, tool_state,
+    build_info, catalog, config, device, device_config, extension, fluid, library, log, obstacle, report,
+    servo, servo_pace, session, setting_info, tool_state,
 };
 use std::ffi::{c_char, c_void};
 
@@ -96,7 +96,7 @@ macro_rules! as_in_header {
 pub(crate) use as_in_header;
 
 /// A function, and its prototype in the header.
-trait Function: Copy {
+pub trait Function: Copy {
     /// The same in C.
     type C: Copy;
 }
@@ -105,6 +105,11 @@ macro_rules! arities {
     ($(($($arg:ident),*))+) => {
         $(impl<R: Abi, $($arg: Abi),*> Function for extern "C" fn($($arg),*) -> R {
             type C = unsafe extern "C" fn($($arg::C),*) -> R::C;
+        }
+
+        // As a field of a table.
+        impl<R: Abi, $($arg: Abi),*> Abi for extern "C" fn($($arg),*) -> R {
+            type C = Option<<Self as Function>::C>;
         })+
     };
 }
@@ -173,6 +178,7 @@ functions! {
     session::hapflow_session_report(_, _);
     session::hapflow_session_report_of(_, _, _);
     log::hapflow_session_poll(_);
+    extension::hapflow_extension(_);
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use crate::caller::{In, Out};
 use crate::code::{Code, Failure, Outcome};
 use crate::device_config::DeviceConfig;
+use crate::device_table::DEVICES;
 use crate::fence::{fence, fence_main};
 use crate::handle::DeviceHandle;
 use crate::hooks;
@@ -18,6 +19,11 @@ use hapflow_realtime::SharedFlags;
 
 /// Time since the last reading, as the first one has it, s.
 const FIRST_DT_S: f64 = 1e-3;
+
+/// Takes devices of the host for a session: all of these, or none.
+pub fn take_over(handles: &[DeviceHandle]) -> Result<Vec<Box<dyn HapticDevice>>, Failure> {
+    Ok(DEVICES.take(handles)?.into_iter().map(DeviceSide::into_device).collect())
+}
 
 /// A device, with a gate of its own.
 pub struct DeviceSide {
@@ -47,7 +53,7 @@ impl DeviceSide {
     }
 
     /// The device, without force, for a session.
-    pub fn into_device(mut self) -> Box<dyn HapticDevice> {
+    fn into_device(mut self) -> Box<dyn HapticDevice> {
         // One that is lost says so to the session, too.
         let _ = self.device.write(GatedWrench::ZERO, FIRST_DT_S);
         self.device
@@ -118,7 +124,7 @@ pub extern "C" fn hapflow_device_open(config: In<DeviceConfig>, device: Out<Devi
         let config = config.read(DeviceConfig::DEFAULT)?;
         config.check()?;
         hooks::panic_if_asked();
-        device.put(LIBRARY.devices.place(|| DeviceSide::open(&config.scene()?))?)?;
+        device.put(DEVICES.place(|| DeviceSide::open(&config.scene()?))?)?;
         Ok(Code::OK)
     })
 }
@@ -127,7 +133,7 @@ pub extern "C" fn hapflow_device_open(config: In<DeviceConfig>, device: Out<Devi
 #[unsafe(no_mangle)]
 pub extern "C" fn hapflow_device_close(device: DeviceHandle) -> Code {
     fence_main(|| {
-        LIBRARY.devices.claim(device)?.take()?.into_device().close();
+        DEVICES.claim(device)?.take()?.into_device().close();
         Ok(Code::OK)
     })
 }
@@ -140,7 +146,7 @@ pub extern "C" fn hapflow_device_read(
     state: Out<ToolStateRecord>,
 ) -> Code {
     fence(|| {
-        let mut side = LIBRARY.devices.enter(device)?;
+        let mut side = DEVICES.enter(device)?;
         let then = state.current(ToolStateRecord::DEFAULT)?;
         hooks::panic_if_asked();
         let (now, dt_s) = side.read(time_s)?;
@@ -153,7 +159,7 @@ pub extern "C" fn hapflow_device_read(
 #[unsafe(no_mangle)]
 pub extern "C" fn hapflow_device_write(device: DeviceHandle, wrench: In<WrenchRecord>, dt_s: f64) -> Code {
     fence(|| {
-        let mut side = LIBRARY.devices.enter(device)?;
+        let mut side = DEVICES.enter(device)?;
         hooks::panic_if_asked();
         side.write(wrench.whole().map(Wrench::from), dt_s)
     })
@@ -163,7 +169,7 @@ pub extern "C" fn hapflow_device_write(device: DeviceHandle, wrench: In<WrenchRe
 #[unsafe(no_mangle)]
 pub extern "C" fn hapflow_device_clear_faults(device: DeviceHandle) -> Code {
     fence(|| {
-        LIBRARY.devices.clear(device)?.raise(1);
+        DEVICES.clear(device)?.raise(1);
         Ok(Code::OK)
     })
 }

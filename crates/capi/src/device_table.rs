@@ -1,4 +1,4 @@
-//! Devices by their handles.
+//! Devices by their handles: a static.
 
 use crate::code::{Code, Failure};
 use crate::device::DeviceSide;
@@ -22,8 +22,11 @@ pub struct Devices {
     slots: [Slot; MAX_DEVICES],
 }
 
+/// All devices of the process.
+pub static DEVICES: Devices = Devices::new();
+
 impl Devices {
-    pub const fn new() -> Self {
+    const fn new() -> Self {
         Self { slots: [const { Slot { servo: Lane::vacant(), clear: Lane::vacant() } }; MAX_DEVICES] }
     }
 

@@ -7,6 +7,8 @@ pub const HAPFLOW_KIND_DEVICE_CONFIG: u32 = 2;
 pub const HAPFLOW_MAX_SESSIONS: u32 = 64;
 pub const HAPFLOW_KIND_SESSION_CONFIG: u32 = 1;
 pub const HAPFLOW_MAX_TOOLS: u32 = 8;
+pub const HAPFLOW_EXTENSION_DEVICE: &[u8; 17] = b"hapflow.device/1\0";
+pub const HAPFLOW_EXTENSION_LOG: &[u8; 14] = b"hapflow.log/1\0";
 pub type hapflow_result = i32;
 pub const HAPFLOW_OK: _bindgen_ty_1 = 0;
 pub const HAPFLOW_REMARK_FORCE_HELD: _bindgen_ty_1 = 1;
@@ -577,6 +579,106 @@ const _: () = {
         "Offset of field: hapflow_report::degraded",
     ][::core::mem::offset_of!(hapflow_report, degraded) - 272usize];
 };
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_device_extension {
+    pub size: u32,
+    pub reserved: u32,
+    pub config_init: ::core::option::Option<
+        unsafe extern "C" fn(
+            config: *mut hapflow_device_config,
+            size: u32,
+        ) -> hapflow_result,
+    >,
+    pub open: ::core::option::Option<
+        unsafe extern "C" fn(
+            config: *const hapflow_device_config,
+            device: *mut hapflow_device,
+        ) -> hapflow_result,
+    >,
+    pub close: ::core::option::Option<
+        unsafe extern "C" fn(device: hapflow_device) -> hapflow_result,
+    >,
+    pub read: ::core::option::Option<
+        unsafe extern "C" fn(
+            device: hapflow_device,
+            time_s: f64,
+            state: *mut hapflow_tool_state,
+        ) -> hapflow_result,
+    >,
+    pub write: ::core::option::Option<
+        unsafe extern "C" fn(
+            device: hapflow_device,
+            wrench: *const hapflow_wrench,
+            dt_s: f64,
+        ) -> hapflow_result,
+    >,
+    pub clear_faults: ::core::option::Option<
+        unsafe extern "C" fn(device: hapflow_device) -> hapflow_result,
+    >,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_device_extension",
+    ][::core::mem::size_of::<hapflow_device_extension>() - 56usize];
+    [
+        "Alignment of hapflow_device_extension",
+    ][::core::mem::align_of::<hapflow_device_extension>() - 8usize];
+    [
+        "Offset of field: hapflow_device_extension::size",
+    ][::core::mem::offset_of!(hapflow_device_extension, size) - 0usize];
+    [
+        "Offset of field: hapflow_device_extension::reserved",
+    ][::core::mem::offset_of!(hapflow_device_extension, reserved) - 4usize];
+    [
+        "Offset of field: hapflow_device_extension::config_init",
+    ][::core::mem::offset_of!(hapflow_device_extension, config_init) - 8usize];
+    [
+        "Offset of field: hapflow_device_extension::open",
+    ][::core::mem::offset_of!(hapflow_device_extension, open) - 16usize];
+    [
+        "Offset of field: hapflow_device_extension::close",
+    ][::core::mem::offset_of!(hapflow_device_extension, close) - 24usize];
+    [
+        "Offset of field: hapflow_device_extension::read",
+    ][::core::mem::offset_of!(hapflow_device_extension, read) - 32usize];
+    [
+        "Offset of field: hapflow_device_extension::write",
+    ][::core::mem::offset_of!(hapflow_device_extension, write) - 40usize];
+    [
+        "Offset of field: hapflow_device_extension::clear_faults",
+    ][::core::mem::offset_of!(hapflow_device_extension, clear_faults) - 48usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_log_extension {
+    pub size: u32,
+    pub reserved: u32,
+    pub poll: ::core::option::Option<
+        unsafe extern "C" fn(session: hapflow_session) -> hapflow_result,
+    >,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_log_extension",
+    ][::core::mem::size_of::<hapflow_log_extension>() - 16usize];
+    [
+        "Alignment of hapflow_log_extension",
+    ][::core::mem::align_of::<hapflow_log_extension>() - 8usize];
+    [
+        "Offset of field: hapflow_log_extension::size",
+    ][::core::mem::offset_of!(hapflow_log_extension, size) - 0usize];
+    [
+        "Offset of field: hapflow_log_extension::reserved",
+    ][::core::mem::offset_of!(hapflow_log_extension, reserved) - 4usize];
+    [
+        "Offset of field: hapflow_log_extension::poll",
+    ][::core::mem::offset_of!(hapflow_log_extension, poll) - 8usize];
+};
 unsafe extern "C" {
     pub fn hapflow_result_text(result: hapflow_result) -> *const ::core::ffi::c_char;
     pub fn hapflow_last_error(
@@ -745,4 +847,7 @@ unsafe extern "C" {
         report: *mut hapflow_report,
     ) -> hapflow_result;
     pub fn hapflow_session_poll(session: hapflow_session) -> hapflow_result;
+    pub fn hapflow_extension(
+        name: *const ::core::ffi::c_char,
+    ) -> *const ::core::ffi::c_void;
 }

@@ -9,15 +9,19 @@
 //! | `device` | those of a device in a loop of the host |
 //! | `config`, `device_config`, `tool_state`, `wrench`, `report`, `servo_pace`, `setting_info` | the header's structs |
 //! | `log` | what a session has to say, told to the host |
+//! | `extension`, `absent_device`, `absent_log` | optional parts, as tables; and a build without them |
 //! | `scene_source` | what the two configurations have in common |
 //! | `build_info`, `catalog` | what the build has; shipped scenes and devices |
 //! | `code` | results |
 //! | `generated`, `contract` | the header in Rust, and the check that all this is as it says |
 //! | `fence` | panics end here |
-//! | `handle`, `table`, `device_table`, `lane` | handles, and who may be where; the one static |
+//! | `handle`, `table`, `device_table`, `lane` | handles, and who may be where; the statics |
 //! | `caller` | the caller's memory |
 //!
 //! `unsafe` is in `lane`, `caller` and, for one line a struct, where the header's structs are.
+
+// What only an absent part would use is left out by the linker.
+#![cfg_attr(not(all(feature = "device", feature = "log")), allow(dead_code))]
 
 mod build_info;
 mod caller;
@@ -25,9 +29,15 @@ mod catalog;
 mod code;
 mod config;
 mod contract;
+#[cfg(feature = "device")]
+mod device;
+#[cfg(not(feature = "device"))]
+#[path = "absent_device.rs"]
 mod device;
 mod device_config;
+#[cfg(feature = "device")]
 mod device_table;
+mod extension;
 mod fence;
 mod fluid;
 #[rustfmt::skip]
@@ -36,6 +46,10 @@ mod handle;
 mod hooks;
 mod lane;
 mod library;
+#[cfg(feature = "log")]
+mod log;
+#[cfg(not(feature = "log"))]
+#[path = "absent_log.rs"]
 mod log;
 mod obstacle;
 mod report;

@@ -1,7 +1,7 @@
 //! What a session has to say: made on main, of what servo and fluid report, and told to a function of the host.
 
 use crate::caller::{LogFunction, LogUser};
-use crate::code::Code;
+use crate::code::{Code, Failure};
 use crate::generated as c;
 use crate::handle::{Handle, Id};
 use crate::report::FAULTS;
@@ -45,8 +45,10 @@ struct ToolTold {
 }
 
 impl Log {
-    pub fn new(function: LogFunction, user: LogUser, tools: usize) -> Self {
-        Self { function, user, tools: vec![ToolTold::default(); tools], skipped: 0, degraded: 0 }
+    /// Of a session with so many tools, if anybody listens.
+    pub fn open(function: LogFunction, user: LogUser, tools: usize) -> Result<Option<Self>, Failure> {
+        let tools = vec![ToolTold::default(); tools];
+        Ok((!function.is_null()).then_some(Self { function, user, tools, skipped: 0, degraded: 0 }))
     }
 
     /// Tells what is new.

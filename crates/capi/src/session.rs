@@ -3,7 +3,7 @@
 use crate::caller::{Buffer, In, Out, Shown, Text};
 use crate::code::{Code, Failure, Outcome};
 use crate::config::SessionConfig;
-use crate::device::DeviceSide;
+use crate::device::take_over;
 use crate::fence::{fence, fence_main};
 use crate::fluid::FluidSide;
 use crate::handle::Handle;
@@ -135,15 +135,16 @@ fn devices(config: &SessionConfig, scene: &Scene) -> Result<Vec<Box<dyn HapticDe
         let text = format!("device_count = {}: the scene has {tools} tools", given.len());
         return Err(Failure { code: Code::ERROR_VALUE, text });
     }
-    Ok(LIBRARY.devices.take(&given)?.into_iter().map(DeviceSide::into_device).collect())
+    take_over(&given)
 }
 
 /// Makes a session.
 fn open(config: &SessionConfig) -> Result<Parts, Failure> {
     let (servo_drive, fluid_drive) = (config.servo_drive()?, config.fluid_drive()?);
     let scene = config.scene()?;
-    // Before any device is taken over.
+    // Whatever may be refused is, before any device is taken over.
     scene.check()?;
+    let log = config.log(scene.tools().count())?;
     let devices = devices(config, &scene)?;
     let names = devices.iter().map(|d| Shown::new(d.name())).collect();
     let options = SessionOptions {
@@ -171,7 +172,7 @@ fn open(config: &SessionConfig) -> Result<Parts, Failure> {
         any: AnySide { control: control.clone(), servo_drive, tools, obstacles },
         main: MainSide {
             paces: Paces::new(&mut session, names),
-            log: config.log(session.tool_count()),
+            log,
             session,
             control,
             names: Names::of(&scene),

@@ -1,9 +1,8 @@
-//! Sessions by their handles, and what else lasts: the library's one static. (Apart from it there is a thread's own last
-//! error.)
+//! Sessions by their handles, and what else lasts: a static. (Others are the devices, and what a thread has of its own:
+//! its last error, and the logs that it is in.)
 
 use crate::catalog::Catalog;
 use crate::code::{Code, Failure};
-use crate::device_table::Devices;
 use crate::fluid::FluidSide;
 use crate::generated::{HAPFLOW_MAX_SESSIONS, HAPFLOW_MAX_TOOLS};
 use crate::handle::{Handle, Id, next_generation};
@@ -41,11 +40,10 @@ pub struct Parts {
     pub any: AnySide,
 }
 
-/// All that lasts: the version that was agreed on, the texts on what the build has, the devices, and the sessions.
+/// All that lasts: the version that was agreed on, the texts on what the build has, and the sessions.
 pub struct Library {
     version: AtomicU32,
     catalog: OnceLock<Catalog>,
-    pub devices: Devices,
     slots: [Slot; MAX_SESSIONS],
 }
 
@@ -63,7 +61,7 @@ impl From<Refused> for Code {
 impl Library {
     const fn new() -> Self {
         let slots = [const { Slot::vacant() }; MAX_SESSIONS];
-        Self { version: AtomicU32::new(0), catalog: OnceLock::new(), devices: Devices::new(), slots }
+        Self { version: AtomicU32::new(0), catalog: OnceLock::new(), slots }
     }
 
     /// Notes the version that was agreed on.
