@@ -7,7 +7,6 @@ use crate::device_table::DEVICES;
 use crate::fence::{fence, fence_main};
 use crate::handle::DeviceHandle;
 use crate::hooks;
-use crate::lane::Faultable;
 use crate::servo::remark;
 use crate::table::LIBRARY;
 use crate::tool_state::{ToolStateRecord, check_dt, check_time};
@@ -15,7 +14,7 @@ use crate::wrench::WrenchRecord;
 use hapflow_devices::HapticDevice;
 use hapflow_engine::{Scene, SceneError, open_device};
 use hapflow_haptics::{FaultSet, GatedWrench, ModelAge, SafetyGate, ToolState, Wrench};
-use hapflow_realtime::SharedFlags;
+use hapflow_realtime::{Faultable, SharedFlags};
 
 /// Time since the last reading, as the first one has it, s.
 const FIRST_DT_S: f64 = 1e-3;

@@ -4,8 +4,7 @@ use crate::code::{Code, Failure};
 use crate::device::DeviceSide;
 use crate::generated::HAPFLOW_MAX_DEVICES;
 use crate::handle::{DeviceHandle, Id, next_generation};
-use crate::lane::{Alone, Claimed, Lane, Sharing};
-use hapflow_realtime::SharedFlags;
+use hapflow_realtime::{Alone, Claimed, Lane, SharedFlags, Sharing};
 
 /// Devices at once: `HAPFLOW_MAX_DEVICES`.
 const MAX_DEVICES: usize = HAPFLOW_MAX_DEVICES as usize;

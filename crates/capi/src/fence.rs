@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Runs a [servo], [fluid] or [any] function. Costs nothing while nothing panics.
 ///
-/// Whatever was entered is left, and faulted, while the panic unwinds: see [`crate::lane::Alone`].
+/// Whatever was entered is left, and faulted, while the panic unwinds: see [`hapflow_realtime::Alone`].
 pub fn fence(body: impl FnOnce() -> Outcome) -> Code {
     match catch_unwind(AssertUnwindSafe(body)) {
         Ok(outcome) => outcome.unwrap_or_else(|code| code),

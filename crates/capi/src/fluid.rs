@@ -5,12 +5,12 @@ use crate::code::{Code, Outcome};
 use crate::fence::fence;
 use crate::handle::Handle;
 use crate::hooks;
-use crate::lane::Faultable;
 use crate::table::LIBRARY;
 use crate::tool_state::check_time;
 use hapflow_engine::{Control, FluidUnit};
 use hapflow_fluid::ParticleView;
 use hapflow_haptics::FaultSet;
+use hapflow_realtime::Faultable;
 
 /// Most fluid time that one call makes up for, s: a host that gives the time of another clock is told so, instead
 /// of waiting for days.

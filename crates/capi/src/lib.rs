@@ -15,10 +15,10 @@
 //! | `code` | results |
 //! | `generated`, `contract` | the header in Rust, and the check that all this is as it says |
 //! | `fence` | panics end here |
-//! | `handle`, `table`, `device_table`, `lane` | handles, and who may be where; the statics |
+//! | `handle`, `table`, `device_table` | handles, and who may be where; the statics |
 //! | `caller` | the caller's memory |
 //!
-//! `unsafe` is in `lane`, `caller` and, for one line a struct, where the header's structs are.
+//! `unsafe` is in `caller` and, for one line a struct, where the header's structs are.
 
 // What only an absent part would use is left out by the linker.
 #![cfg_attr(not(all(feature = "device", feature = "log")), allow(dead_code))]
@@ -44,7 +44,6 @@ mod fluid;
 mod generated;
 mod handle;
 mod hooks;
-mod lane;
 mod library;
 #[cfg(feature = "log")]
 mod log;

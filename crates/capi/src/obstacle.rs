@@ -5,13 +5,13 @@ use crate::code::{Code, Outcome};
 use crate::fence::fence;
 use crate::handle::Handle;
 use crate::hooks;
-use crate::lane::Faultable;
 use crate::session::with_any;
 use crate::table::LIBRARY;
 use crate::tool_state::{FARTHEST, check_orientation};
 use glam::{DQuat, DVec3};
 use hapflow_engine::{Control, ObstacleMover};
 use hapflow_haptics::FaultSet;
+use hapflow_realtime::Faultable;
 
 /// The obstacles' part of a session.
 pub struct ObstacleSide {

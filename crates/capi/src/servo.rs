@@ -5,12 +5,12 @@ use crate::code::{Code, Outcome};
 use crate::fence::fence;
 use crate::handle::Handle;
 use crate::hooks;
-use crate::lane::{Alone, Faultable};
 use crate::table::LIBRARY;
 use crate::tool_state::ToolStateRecord;
 use crate::wrench::WrenchRecord;
 use hapflow_engine::{Control, ServoUnit};
 use hapflow_haptics::{FaultSet, MAX_TICK_S};
+use hapflow_realtime::{Alone, Faultable};
 
 /// One tool's part of a session.
 pub struct ServoSide {

@@ -8,7 +8,6 @@ use crate::fence::{fence, fence_main};
 use crate::fluid::FluidSide;
 use crate::handle::Handle;
 use crate::hooks;
-use crate::lane::Faultable;
 use crate::log::{Log, check_outside};
 use crate::obstacle::ObstacleSide;
 use crate::report::Report;
@@ -21,6 +20,7 @@ use hapflow_devices::HapticDevice;
 use hapflow_engine::{Control, Drive, Scene, Session, SessionOptions, Value, open_device};
 use hapflow_fluid::ParticleView;
 use hapflow_haptics::FaultSet;
+use hapflow_realtime::Faultable;
 use std::ffi::c_char;
 
 /// Main's part of a session.

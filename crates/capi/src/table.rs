@@ -6,10 +6,10 @@ use crate::code::{Code, Failure};
 use crate::fluid::FluidSide;
 use crate::generated::{HAPFLOW_MAX_SESSIONS, HAPFLOW_MAX_TOOLS};
 use crate::handle::{Handle, Id, next_generation};
-use crate::lane::{Alone, Claimed, Lane, Refused, Sharing};
 use crate::obstacle::ObstacleSide;
 use crate::servo::ServoSide;
 use crate::session::{AnySide, MainSide};
+use hapflow_realtime::{Alone, Claimed, Lane, Refused, Sharing};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 

@@ -9,6 +9,8 @@
 //! | every value in order, the oldest go on overflow | [`ring()`] | wait-free | lock-free |
 //! | bits that any thread raises | [`SharedFlags`] | wait-free | wait-free |
 //!
+//! What a handle of the C interface names lies in a [`Lane`], which lets one thread in at a time and finds stale handles.
+//!
 //! Time comes from a [`Clock`]: [`RealClock`] for a hand, [`HostClock`] for a
 //! host's servo, [`VirtualClock`] for tests and replays. Threads that
 //! must keep time come from [`spawn_realtime`], which goes on without the priority where the system refuses it,
@@ -23,6 +25,7 @@
 
 mod clock;
 mod flags;
+mod lane;
 mod latest;
 mod memory;
 mod os;
@@ -34,6 +37,7 @@ mod thread;
 
 pub use clock::{Clock, DEFAULT_SPIN_MARGIN, HostClock, RealClock, VirtualClock, process_cpu_s};
 pub use flags::SharedFlags;
+pub use lane::{Alone, Claimed, Faultable, Lane, Refused, Sharing};
 pub use latest::{LatestReader, LatestWriter, latest, latest_with};
 pub use memory::{lock_memory, unlock_memory};
 pub use priority::{is_realtime, set_normal_priority, set_realtime_priority};

@@ -3,9 +3,10 @@
 #![cfg(loom)]
 
 use hapflow_realtime::{
-    LatestReader, LatestWriter, RingConsumer, RingProducer, SharedFlags, latest_with, ring,
+    Faultable, Lane, LatestReader, LatestWriter, Refused, RingConsumer, RingProducer, SharedFlags,
+    latest_with, ring,
 };
-use loom::{cell::UnsafeCell, thread};
+use loom::{cell::UnsafeCell, sync::Arc, thread};
 
 /// A value whose every access loom watches, even through a reference that a hand-over lent out.
 struct Watched(UnsafeCell<u64>);
@@ -144,5 +145,115 @@ fn a_raised_flag_publishes_what_came_before() {
             assert!(reader.update());
         }
         thread.join().unwrap();
+    });
+}
+
+impl Faultable for Watched {
+    fn fault(&mut self) {}
+}
+
+// SAFETY: what the models are to prove.
+unsafe impl Sync for Watched {}
+
+#[allow(clippy::unwrap_used, reason = "a helper of tests")]
+fn lane(generation: u32) -> Arc<Lane<Watched>> {
+    let lane = Lane::vacant();
+    lane.claim().unwrap().open(generation, Watched::new());
+    Arc::new(lane)
+}
+
+/// Enters and counts itself, if it gets in.
+fn count_in(lane: &Lane<Watched>, generation: u32) -> Result<(), Refused> {
+    let mut inside = lane.enter(generation)?;
+    let before = inside.get();
+    inside.set(before + 1);
+    Ok(())
+}
+
+#[test]
+fn one_enters_at_a_time_and_closing_waits_for_them() {
+    loom::model(|| {
+        let lane = lane(1);
+        let enter = || {
+            let lane = Arc::clone(&lane);
+            thread::spawn(move || count_in(&lane, 1).is_ok())
+        };
+        let others = [enter(), enter()];
+        let in_it = lane.close(1).unwrap().take().unwrap().get();
+        let entered = others.into_iter().filter_map(|other| other.join().unwrap().then_some(())).count();
+        assert_eq!(in_it, entered as u64, "nobody comes in after it was closed, and no count is lost");
+    });
+}
+
+#[test]
+fn those_who_share_see_what_was_opened_until_it_is_closed() {
+    // Over all orders: a model in which nobody ever got in would prove nothing.
+    let seen = std::sync::Arc::new(std::sync::atomic::AtomicU32::new(0));
+    let count = std::sync::Arc::clone(&seen);
+    loom::model(move || {
+        let lane = Arc::new(Lane::<Watched>::vacant());
+        let theirs = Arc::clone(&lane);
+        let count = std::sync::Arc::clone(&count);
+        let sharing = thread::spawn(move || {
+            for _ in 0..2 {
+                if let Ok(inside) = theirs.share(1) {
+                    assert_eq!(inside.get(), 7);
+                    count.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                }
+            }
+        });
+        let mut value = Watched::new();
+        value.set(7);
+        lane.claim().unwrap().open(1, value);
+        lane.close(1).unwrap().take().unwrap().set(8);
+        sharing.join().unwrap();
+        assert!(lane.share(1).is_err());
+    });
+    assert!(seen.load(std::sync::atomic::Ordering::Relaxed) > 0);
+}
+
+#[test]
+fn a_stale_generation_never_meets_the_next() {
+    loom::model(|| {
+        let lane = lane(1);
+        let theirs = Arc::clone(&lane);
+        let stale = thread::spawn(move || (0..2).filter(|_| count_in(&theirs, 1).is_ok()).count());
+        drop(lane.close(1).unwrap().take());
+        lane.claim().unwrap().open(2, Watched::new());
+        assert_eq!(count_in(&lane, 2), Ok(()));
+        stale.join().unwrap();
+        assert_eq!(lane.enter(2).unwrap().get(), 1);
+    });
+}
+
+#[test]
+fn of_two_who_close_one_does_and_of_two_who_claim_one_does() {
+    loom::model(|| {
+        let lane = lane(1);
+        let theirs = Arc::clone(&lane);
+        let close = |lane: &Lane<Watched>| lane.close(1).is_ok_and(|mut closed| closed.take().is_some());
+        let other = thread::spawn(move || close(&theirs));
+        let mine = close(&lane);
+        assert_ne!(mine, other.join().unwrap());
+        let theirs = Arc::clone(&lane);
+        let claim = |lane: &Lane<Watched>, generation| {
+            lane.claim().map(|claimed| claimed.open(generation, Watched::new())).is_some()
+        };
+        let other = thread::spawn(move || claim(&theirs, 2));
+        let mine = claim(&lane, 3);
+        assert_ne!(mine, other.join().unwrap());
+        assert_eq!(count_in(&lane, if mine { 3 } else { 2 }), Ok(()));
+    });
+}
+
+#[test]
+fn what_is_opened_again_is_as_it_was() {
+    loom::model(|| {
+        let lane = lane(1);
+        let theirs = Arc::clone(&lane);
+        let entering = thread::spawn(move || count_in(&theirs, 1).is_ok());
+        lane.close(1).unwrap().reopen();
+        let entered = entering.join().unwrap();
+        assert_eq!(lane.enter(1).unwrap().get(), u64::from(entered));
     });
 }

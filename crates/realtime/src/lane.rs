@@ -1,4 +1,4 @@
-//! A place for one thing, entered by generation: the lock-free gatekeeper of everything that a handle names.
+//! A place for one thing, entered by generation: the gatekeeper of what a handle names.
 //!
 //! One atomic word holds the generation (upper half) and who is inside (lower half), so that a stale handle never
 //! disturbs who came after it, and no order between two atomics has to be argued.
@@ -9,11 +9,10 @@
 //!    └──── dropped ────┴──── close: waits out who is inside
 //! ```
 
-use std::cell::UnsafeCell;
+use crate::sync::{AtomicU64, Ordering, UnsafeCell};
+use std::fmt;
 use std::ops::{Deref, DerefMut};
 use std::ptr::NonNull;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::Duration;
 
 /// Nobody may enter.
 const SHUT: u64 = 1 << 31;
@@ -33,13 +32,15 @@ pub enum Refused {
     Busy,
 }
 
-/// What happens to the content when a thread panics inside.
+/// What can be entered alone, and marked if that goes wrong.
 pub trait Faultable {
-    /// Marks it. Must not panic.
+    /// Marks it, as a thread panics inside. Must not panic. Thread: the one that panics.
     fn fault(&mut self);
 }
 
-/// See the module.
+/// A place for a `T`, which threads enter that know its generation: one alone, or several to look. It may be a static.
+///
+/// What is entered alone is marked ([`Faultable`]) when a thread panics inside, and is left.
 pub struct Lane<T> {
     word: AtomicU64,
     content: UnsafeCell<Option<T>>,
@@ -50,12 +51,21 @@ pub struct Lane<T> {
 unsafe impl<T: Send> Sync for Lane<T> {}
 
 impl<T> Lane<T> {
-    /// An empty one.
+    /// An empty one. Thread: any.
+    #[cfg(not(loom))]
+    #[must_use]
     pub const fn vacant() -> Self {
         Self { word: AtomicU64::new(SHUT | VACANT), content: UnsafeCell::new(None) }
     }
 
-    /// Takes it for filling, if it is empty.
+    /// The same; the model checker's parts are not made while compiling.
+    #[cfg(loom)]
+    #[must_use]
+    pub fn vacant() -> Self {
+        Self { word: AtomicU64::new(SHUT | VACANT), content: UnsafeCell::new(None) }
+    }
+
+    /// Takes it for filling, if it is empty. Thread: any; wait-free.
     pub fn claim(&self) -> Option<Claimed<'_, T>> {
         let found = self.word.load(Ordering::Relaxed);
         let taken = word(generation(found), SHUT | ALONE);
@@ -64,7 +74,11 @@ impl<T> Lane<T> {
         Some(Claimed { lane: self })
     }
 
-    /// Shuts it, and waits until everybody has left. Blocks; whoever is inside must not call it.
+    /// Shuts it for who knows the generation `expected`, and waits until everybody has left. Thread: main (blocks);
+    /// whoever is inside must not call it.
+    ///
+    /// # Errors
+    /// [`Refused::Stale`] if another generation is inside, or somebody else shuts it.
     pub fn close(&self, expected: u32) -> Result<Claimed<'_, T>, Refused> {
         let mut found = self.word.load(Ordering::Relaxed);
         loop {
@@ -87,14 +101,17 @@ impl<T> Lane<T> {
 }
 
 impl<T: Faultable> Lane<T> {
-    /// Enters alone. Wait-free: one compare-and-swap.
+    /// Enters alone. Thread: any; wait-free: one compare-and-swap.
+    ///
+    /// # Errors
+    /// [`Refused`]: another generation, or somebody is inside.
     pub fn enter(&self, expected: u32) -> Result<Alone<'_, T>, Refused> {
         let free = word(expected, 0);
         self.word
             .compare_exchange(free, free | ALONE, Ordering::Acquire, Ordering::Relaxed)
             .map_err(|found| if refuses(found, expected) { Refused::Stale } else { Refused::Busy })?;
         // SAFETY: `ALONE` was raised just now, by this thread. The pointer is only used for writing while it is.
-        match unsafe { (*self.content.get()).as_mut() } {
+        match self.content.with_mut(|content| unsafe { (*content).as_mut() }) {
             Some(content) => Ok(Alone { lane: self, content: NonNull::from(content) }),
             None => {
                 self.word.fetch_and(!ALONE, Ordering::Release);
@@ -105,7 +122,10 @@ impl<T: Faultable> Lane<T> {
 }
 
 impl<T: Sync> Lane<T> {
-    /// Enters with others. Lock-free.
+    /// Enters with others. Thread: any; lock-free.
+    ///
+    /// # Errors
+    /// [`Refused`]: another generation, or somebody has it alone.
     pub fn share(&self, expected: u32) -> Result<Sharing<'_, T>, Refused> {
         let mut found = self.word.load(Ordering::Relaxed);
         loop {
@@ -121,13 +141,19 @@ impl<T: Sync> Lane<T> {
             }
         }
         // SAFETY: this thread is counted among the sharers, so nobody fills or empties the cell.
-        match unsafe { (*self.content.get()).as_ref() } {
+        match self.content.with(|content| unsafe { (*content).as_ref() }) {
             Some(content) => Ok(Sharing { lane: self, content: NonNull::from(content) }),
             None => {
                 self.word.fetch_sub(1, Ordering::Release);
                 Err(Refused::Stale)
             }
         }
+    }
+}
+
+impl<T> fmt::Debug for Lane<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Lane").finish_non_exhaustive()
     }
 }
 
@@ -143,7 +169,7 @@ fn refuses(found: u64, expected: u32) -> bool {
     generation(found) != expected || found & SHUT != 0
 }
 
-/// One thread inside, with the content for itself.
+/// One thread inside, with the content for itself; dropped, it has left.
 pub struct Alone<'a, T: Faultable> {
     lane: &'a Lane<T>,
     content: NonNull<T>,
@@ -173,7 +199,7 @@ impl<T: Faultable> Drop for Alone<'_, T> {
     }
 }
 
-/// One of several threads inside.
+/// One of several threads inside; dropped, it has left.
 pub struct Sharing<'a, T> {
     lane: &'a Lane<T>,
     content: NonNull<T>,
@@ -199,29 +225,30 @@ pub struct Claimed<'a, T> {
 }
 
 impl<T> Claimed<'_, T> {
-    /// The last generation that was in it.
+    /// The last generation that was in it; 0 before the first. Thread: the claim's.
+    #[must_use]
     pub fn generation(&self) -> u32 {
         generation(self.lane.word.load(Ordering::Relaxed))
     }
 
-    /// Fills it, and lets threads in that know `generation`.
+    /// Fills it, and lets threads in that know `generation`. Thread: the claim's; what was in it is dropped here.
     pub fn open(self, generation: u32, content: T) {
         // SAFETY: the claim excludes every other thread.
-        unsafe { *self.lane.content.get() = Some(content) };
+        self.lane.content.with_mut(|place| unsafe { *place = Some(content) });
         self.lane.word.store(word(generation, 0), Ordering::Release);
         std::mem::forget(self);
     }
 
-    /// Lets threads in again that knew the last generation, to what it has.
+    /// Lets threads in again that knew the last generation, to what it has. Thread: the claim's.
     pub fn reopen(self) {
         self.lane.word.store(word(self.generation(), 0), Ordering::Release);
         std::mem::forget(self);
     }
 
-    /// Empties it.
+    /// Empties it. Thread: the claim's.
     pub fn take(&mut self) -> Option<T> {
         // SAFETY: the claim excludes every other thread.
-        unsafe { (*self.lane.content.get()).take() }
+        self.lane.content.with_mut(|content| unsafe { (*content).take() })
     }
 }
 
@@ -231,22 +258,47 @@ impl<T> Drop for Claimed<'_, T> {
     }
 }
 
+impl<T: Faultable> fmt::Debug for Alone<'_, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Alone").finish_non_exhaustive()
+    }
+}
+
+impl<T> fmt::Debug for Sharing<'_, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Sharing").finish_non_exhaustive()
+    }
+}
+
+impl<T> fmt::Debug for Claimed<'_, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Claimed").finish_non_exhaustive()
+    }
+}
+
 /// Waits longer and longer: a tick is over in microseconds, a fluid step in milliseconds.
 #[derive(Default)]
+#[cfg_attr(loom, allow(dead_code))]
 struct Pause(u32);
 
 impl Pause {
+    #[cfg(loom)]
+    fn wait(&mut self) {
+        loom::thread::yield_now();
+    }
+
+    #[cfg(not(loom))]
     fn wait(&mut self) {
         self.0 = self.0.saturating_add(1);
         match self.0 {
             0..100 => std::hint::spin_loop(),
             100..200 => std::thread::yield_now(),
-            _ => std::thread::sleep(Duration::from_micros(100)),
+            _ => std::thread::sleep(std::time::Duration::from_micros(100)),
         }
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, not(loom)))]
 mod tests {
     use super::*;
     use std::sync::atomic::AtomicU32;
@@ -260,6 +312,7 @@ mod tests {
         }
     }
 
+    #[allow(clippy::unwrap_used, reason = "a helper of tests")]
     fn open(generation: u32, start: u64) -> Lane<Count> {
         let lane = Lane::vacant();
         lane.claim().unwrap().open(generation, Count(start));
