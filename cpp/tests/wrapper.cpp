@@ -24,6 +24,8 @@ static int failed = 0;
     } while (false)
 
 using hapflow::Config;
+using hapflow::Device;
+using hapflow::DeviceConfig;
 using hapflow::Error;
 using hapflow::Session;
 using hapflow::Tick;
@@ -35,6 +37,10 @@ using hapflow::Wrench;
 static_assert(!std::is_copy_constructible_v<Session> && !std::is_copy_assignable_v<Session>);
 static_assert(std::is_nothrow_move_constructible_v<Session> && std::is_nothrow_move_assignable_v<Session>);
 static_assert(std::is_nothrow_destructible_v<Session>);
+static_assert(!std::is_copy_constructible_v<Device> && !std::is_copy_assignable_v<Device>);
+static_assert(std::is_nothrow_move_constructible_v<Device> && std::is_nothrow_move_assignable_v<Device>);
+static_assert(noexcept(std::declval<Device&>().read(0, std::declval<ToolState&>())));
+static_assert(noexcept(std::declval<Device&>().write(Wrench{}, 0)));
 static_assert(std::is_nothrow_copy_constructible_v<Error> && std::is_base_of_v<std::runtime_error, Error>);
 static_assert(noexcept(std::declval<Session&>().tick(ToolState{})));
 static_assert(noexcept(std::declval<Session&>().emergency_stop()));
@@ -416,6 +422,122 @@ static void a_session_that_steps_its_fluid() {
     THROWS(HAPFLOW_ERROR_UNSUPPORTED, {"fluid_drive = 2"}, Session{config});
 }
 
+static Device open_device(const char* name, const char* settings = "") {
+    DeviceConfig config;
+    config.name = name;
+    config.settings = settings;
+    return Device(config);
+}
+
+// A hand that wants to rest is pressed down for `from` to `to` ms; where it is then, mm.
+static double pressed(Device& device, int from, int to, const Wrench& wrench) {
+    ToolState state;
+    state.tool = 3;
+    for (int n = from; n < to; n++) {
+        CHECK(device.read(n * 1e-3, state) == HAPFLOW_OK);
+        CHECK(state.time_s == n * 1e-3 && state.tool == 3);
+        CHECK(device.write(wrench, state.dt_s) >= 0);
+    }
+    return state.position[1] * 1e3;
+}
+
+static void a_device_in_a_loop_of_the_host() {
+    Wrench down;
+    down.force[1] = -1.5;
+    Device device = open_device("hand", "gate.ramp_in = 0.1\ntool.position = [0, 0.01, 0]");
+    CHECK(std::abs(pressed(device, 0, 2000, down) - 5) < 0.1); // 300 N/m
+    ToolState state;
+    CHECK(device.read(1.0, state) == HAPFLOW_ERROR_TIME && state.position[1] == 0);
+    Wrench wrong;
+    wrong.torque[2] = HUGE_VAL;
+    CHECK(device.write(wrong, 1e-3) == HAPFLOW_ERROR_NOT_FINITE);
+    CHECK(device.write(down, 1e-3) == HAPFLOW_REMARK_FORCE_HELD);
+    device.clear_faults();
+    CHECK(device.write(down, 1e-3) == HAPFLOW_OK);
+
+    Device moved(std::move(device));
+    CHECK(device.handle().id == 0 && device.write(down, 1e-3) == HAPFLOW_ERROR_HANDLE); // on purpose
+    moved.close();
+    CHECK(moved.read(9, state) == HAPFLOW_ERROR_HANDLE);
+    THROWS(HAPFLOW_ERROR_HANDLE, {"close"}, moved.close());
+    THROWS(HAPFLOW_ERROR_HANDLE, {"clear_faults"}, moved.clear_faults());
+    moved = open_device("null");
+    CHECK(moved.read(0, state) == HAPFLOW_OK);
+    THROWS(HAPFLOW_ERROR_NOT_FOUND, ({"device: ", "falcn"}), open_device("falcn"));
+    THROWS(HAPFLOW_ERROR_VALUE, {"hand.mass = -1"}, open_device("hand", "hand.mass = -1"));
+    // None is left behind.
+    for (unsigned n = 0; n < 2 * HAPFLOW_MAX_DEVICES; n++) {
+        open_device("null");
+    }
+}
+
+static void a_session_that_ticks_its_servo() {
+    Config config;
+    config.toml = jet;
+    std::vector<Device> devices;
+    devices.push_back(open_device("null"));
+    THROWS(HAPFLOW_ERROR_VALUE, {"device_count = 1"}, Session(config, std::move(devices)));
+    ToolState state;
+    CHECK(devices.size() == 1 && devices[0].read(0, state) == HAPFLOW_OK); // still here
+
+    config.servo_drive = HAPFLOW_DRIVE_OWNED;
+    config.fluid_drive = HAPFLOW_DRIVE_OWNED;
+    Session session(config, std::move(devices));
+    CHECK(devices[0].handle().id == 0);
+    while (session.report().force[1] > -0.05) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    const Tick tick = session.tick(state);
+    CHECK(tick.result == HAPFLOW_ERROR_DRIVE && zero(tick.wrench));
+    const hapflow::ServoPace pace = session.servo_pace();
+    CHECK(pace.owned == 1 && pace.running == 1 && pace.priority != HAPFLOW_PRIORITY_NOT_ASKED);
+    CHECK(std::strcmp(pace.device, "null") == 0 && std::strlen(pace.priority_text) > 0);
+    CHECK(Session(config).servo_pace().owned == 1); // with the scene's device
+    CHECK(open_jet().servo_pace().owned == 0);
+}
+
+static void a_session_tells_its_log() {
+    std::vector<std::string> told;
+    Config config;
+    config.toml = jet;
+    config.log = [&](std::uint32_t level, const std::string& text) {
+        CHECK(level == HAPFLOW_LOG_ERROR || level == HAPFLOW_LOG_INFO);
+        told.push_back(text);
+        if (text.find("emergency") == std::string::npos) {
+            throw std::logic_error("not that");
+        }
+    };
+    Session first(config);
+    Session session(std::move(first)); // the log moves with it
+    session.poll();
+    CHECK(told.empty());
+    CHECK(session.emergency_stop() == HAPFLOW_OK);
+    session.poll();
+    CHECK(told.size() == 1 && told[0].find("fault: emergency stop") == 0);
+    ToolState wrong;
+    wrong.time_s = HUGE_VAL;
+    CHECK(!session.tick(wrong).ok());
+    bool thrown = false;
+    try {
+        session.poll();
+    } catch (const std::logic_error&) {
+        thrown = true;
+    }
+    CHECK(thrown && told.size() == 2);
+    session.poll();
+    open_jet().poll(); // nobody listens
+}
+
+static void optional_parts() {
+    const auto* device = hapflow::extension<hapflow_device_extension>();
+    CHECK(device != nullptr && device->size == sizeof *device);
+    CHECK(device->close(hapflow_device{}) == HAPFLOW_ERROR_HANDLE);
+    const auto* log = hapflow::extension<hapflow_log_extension>();
+    CHECK(log != nullptr && log->size == sizeof *log);
+    CHECK(log->poll(hapflow_session{}) == HAPFLOW_ERROR_HANDLE);
+    CHECK(hapflow_extension("hapflow.device/999") == nullptr);
+}
+
 // Everything of `session` is refused, and nothing of it pushes.
 static void gone(Session& session) {
     const Tick tick = session.tick(ToolState{});
@@ -429,6 +551,8 @@ static void gone(Session& session) {
     THROWS(HAPFLOW_ERROR_HANDLE, {"get"}, static_cast<void>(session.get<bool>("fluid.two_way")));
     THROWS(HAPFLOW_ERROR_HANDLE, {"settings"}, static_cast<void>(session.settings()));
     THROWS(HAPFLOW_ERROR_HANDLE, {"report"}, static_cast<void>(session.report()));
+    THROWS(HAPFLOW_ERROR_HANDLE, {"servo_pace"}, static_cast<void>(session.servo_pace()));
+    THROWS(HAPFLOW_ERROR_HANDLE, {"poll"}, session.poll());
     THROWS(HAPFLOW_ERROR_HANDLE, {"tool_count"}, static_cast<void>(session.tool_count()));
     THROWS(HAPFLOW_ERROR_HANDLE, {"obstacle_count"}, static_cast<void>(session.obstacle_count()));
     std::vector<float> positions;
@@ -531,6 +655,10 @@ int main() {
     fluid_and_particles();
     several_tools_and_obstacles();
     a_session_that_steps_its_fluid();
+    a_device_in_a_loop_of_the_host();
+    a_session_that_ticks_its_servo();
+    a_session_tells_its_log();
+    optional_parts();
     three_threads_on_one_session();
     moves_and_lives();
     std::printf(failed == 0 ? "all passed\n" : "%d failed\n", failed);

@@ -13,14 +13,14 @@
 // sees it. Each function has the thread class of the C function below it:
 //
 //     [main]      may block and allocate. One thread at a time a session; it need not always be the same.
-//     [servo]     wait-free: no lock, no allocation, no system call, no log. One thread at a time a tool.
+//     [servo]     wait-free: no lock, no allocation, no system call, no log. One thread at a time a tool or device.
 //     [fluid]     computes, for milliseconds. One thread at a time a session.
 //     [obstacle]  wait-free, as [servo]. One thread at a time a session.
 //     [any]       lock-free, by any number of threads at once.
 //
 // Functions of different classes may run on one Session at the same time. Only to move it, to assign to it and to
-// let it end, a thread must have it for itself. Whatever fails throws Error; a function that is noexcept gives the
-// result instead. Remarks (positive results) are no errors.
+// let it end, a thread must have it for itself; so for a Device. Whatever fails throws Error; a function that is noexcept
+// gives the result instead. Remarks (positive results) are no errors.
 #ifndef HAPFLOW_HAPFLOW_HPP
 #define HAPFLOW_HAPFLOW_HPP
 
@@ -29,7 +29,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <locale>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -47,6 +50,8 @@ using Report = hapflow_report;
 using SceneInfo = hapflow_scene_info;
 /// A haptic device that the library knows: see hapflow_device_info. Its texts last as long as the process.
 using DeviceInfo = hapflow_device_info;
+/// How an owned servo keeps time: see hapflow_servo_pace. Its texts last as long as the session.
+using ServoPace = hapflow_servo_pace;
 
 /// A function of the library failed. what() tells all of it: the function, its argument, the result, the detail.
 class Error : public std::runtime_error {
@@ -173,6 +178,29 @@ inline std::uint32_t negotiate() {
     return detail::all<DeviceInfo>(hapflow_device_count(), hapflow_device_info_init, hapflow_device_get);
 }
 
+namespace detail {
+
+/// The name of the optional part whose table this is.
+template <class Table>
+struct Part;
+template <>
+struct Part<hapflow_device_extension> {
+    static constexpr const char* name = HAPFLOW_EXTENSION_DEVICE;
+};
+template <>
+struct Part<hapflow_log_extension> {
+    static constexpr const char* name = HAPFLOW_EXTENSION_LOG;
+};
+
+} // namespace detail
+
+/// The table of an optional part, as extension<hapflow_device_extension>(); null where the library has none. [any] It
+/// lasts as long as the process.
+template <class Table>
+[[nodiscard]] const Table* extension() noexcept {
+    return static_cast<const Table*>(hapflow_extension(detail::Part<Table>::name));
+}
+
 /// How a session is made. Exactly one of `scene` and `toml` is given.
 struct Config {
     std::string scene;             ///< Name of a shipped scene, as "tap", or path of a scene file.
@@ -180,6 +208,18 @@ struct Config {
     std::string settings;          ///< Lines `path = value` that are set on top.
     std::uint32_t threads = 0;     ///< Worker threads of the fluid; 0: all cores but one. Results do not depend on it.
     std::uint32_t fluid_drive = 0; ///< HAPFLOW_DRIVE_HOST, or _OWNED: the session steps the fluid itself.
+    std::uint32_t servo_drive = 0; ///< HAPFLOW_DRIVE_HOST, or _OWNED: the session ticks the servo itself.
+    /// Gets each line that Session::poll() has to tell, with its level (HAPFLOW_LOG_...), on the thread that polls. It
+    /// may call no function of that session of class [main]. What it throws comes out of poll().
+    std::function<void(std::uint32_t level, const std::string& text)> log;
+};
+
+/// Which device, and how it is made: see hapflow_device_config.
+struct DeviceConfig {
+    std::string name;     ///< As DeviceInfo has it; empty: that of the scene.
+    std::string scene;    ///< Name of a shipped scene, or path of a scene file; or empty.
+    std::string toml;     ///< Text of a scene file; or empty.
+    std::string settings; ///< Lines `path = value` that are set on top.
 };
 
 /// Where the hand is, and when: see hapflow_tool_state. By default at rest in the origin, at time 0.
@@ -198,6 +238,120 @@ struct ToolState {
 struct Wrench {
     Vec3 force{};  ///< N, in the frame of the tool state.
     Vec3 torque{}; ///< N m, about the tool's position.
+};
+
+namespace detail {
+
+template <std::size_t N>
+void copy(const std::array<double, N>& from, double (&to)[N]) noexcept {
+    for (std::size_t i = 0; i < N; i++) {
+        to[i] = from[i];
+    }
+}
+
+template <std::size_t N>
+void copy(const double (&from)[N], std::array<double, N>& to) noexcept {
+    for (std::size_t i = 0; i < N; i++) {
+        to[i] = from[i];
+    }
+}
+
+/// What the library takes for a tool at rest: fields that are not here keep theirs.
+inline hapflow_tool_state blank_state() {
+    hapflow_tool_state blank{};
+    check(hapflow_tool_state_init(&blank, size_of<hapflow_tool_state>()), "tool state");
+    return blank;
+}
+
+} // namespace detail
+
+/// A haptic device for a loop of the host, behind a safety gate of its own; or to be given to a Session. Owns the
+/// device of the C interface, and closes it.
+class Device {
+public:
+    /// Opens a device. [main, several at once]
+    explicit Device(const DeviceConfig& config) {
+        negotiate();
+        hapflow_device_config c{};
+        const hapflow_result made = hapflow_device_config_init(&c, detail::size_of<hapflow_device_config>());
+        detail::check(made, "device config");
+        c.name = detail::c_text_or_null(config.name, "name");
+        c.scene = detail::c_text_or_null(config.scene, "scene");
+        c.toml = config.toml.empty() ? nullptr : config.toml.data();
+        c.toml_length = config.toml.size();
+        c.settings = detail::c_text_or_null(config.settings, "settings");
+        blank_ = detail::blank_state();
+        detail::check_main(hapflow_device_open(&c, &device_), "device");
+    }
+
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    /// Leaves a null device in `other`: all that it does fails with HAPFLOW_ERROR_HANDLE. [any] But this thread must
+    /// have both for itself, as for every move.
+    Device(Device&& other) noexcept : device_(other.release()), blank_(other.blank_) {}
+
+    /// Closes what it had, and takes over the other's. [main] This thread must have both for itself.
+    Device& operator=(Device&& other) noexcept {
+        if (this != &other) {
+            end();
+            device_ = other.release();
+            blank_ = other.blank_;
+        }
+        return *this;
+    }
+
+    /// Takes the force off and lets go of it, if close() has not; waits for calls under way. [main]
+    ~Device() { end(); }
+
+    /// Takes the force off and lets go of it now. [main] Waits for calls of other threads that are under way.
+    void close() { detail::check_main(hapflow_device_close(device_), "close"); }
+
+    /// For functions of device.h that are not here. Never close it. [any]
+    [[nodiscard]] hapflow_device handle() const noexcept { return device_; }
+
+    /// Where it is at `time_s`: `state` becomes what Session::tick takes, but keeps its `tool`. [servo] Gives the
+    /// result; on failure `state` is as it was.
+    hapflow_result read(double time_s, ToolState& state) noexcept {
+        hapflow_tool_state c = blank_;
+        const hapflow_result result = hapflow_device_read(device_, time_s, &c);
+        if (result >= 0) {
+            state.time_s = c.time_s;
+            state.dt_s = c.dt_s;
+            state.buttons = c.buttons;
+            detail::copy(c.position, state.position);
+            detail::copy(c.orientation, state.orientation);
+            detail::copy(c.velocity, state.velocity);
+            detail::copy(c.angular_velocity, state.angular_velocity);
+        }
+        return result;
+    }
+
+    /// What the hand is to feel until the next write, `dt_s` after the last. [servo] Gives the result.
+    hapflow_result write(const Wrench& wrench, double dt_s) noexcept {
+        hapflow_wrench c{};
+        detail::copy(wrench.force, c.force);
+        detail::copy(wrench.torque, c.torque);
+        return hapflow_device_write(device_, &c, dt_s);
+    }
+
+    /// Takes back every fault; the force then comes up slowly, as at first. [any]
+    void clear_faults() { detail::check(hapflow_device_clear_faults(device_), "clear_faults"); }
+
+private:
+    friend class Session;
+
+    hapflow_device release() noexcept { return std::exchange(device_, hapflow_device{}); }
+
+    // Fails only if there is no device any more, and then there is nothing to do.
+    void end() noexcept {
+        if (device_.id != 0) {
+            static_cast<void>(hapflow_device_close(device_));
+        }
+    }
+
+    hapflow_device device_{};
+    hapflow_tool_state blank_{};
 };
 
 /// What a servo tick gave. The wrench is zero if it failed.
@@ -225,12 +379,16 @@ struct Setting {
     std::string usual;                ///< Its value where a scene says nothing.
 };
 
-/// A scene, its fluid and its tools; the host ticks them, and steps the fluid or lets the session do it. Owns the
+/// A scene, its fluid and its tools; the host ticks them and steps the fluid, or lets the session do so. Owns the
 /// session of the C interface, and destroys it.
 class Session {
 public:
     /// Makes a session: milliseconds to seconds, as the scene has particles. [main, several at once]
-    explicit Session(const Config& config) {
+    explicit Session(const Config& config) : Session(config, std::vector<Device>()) {}
+
+    /// The same with devices for a servo that the session ticks, in the order of the scene's tools. [main, several at
+    /// once] It takes them over; if it throws they are as they were.
+    Session(const Config& config, std::vector<Device>&& devices) : blank_(detail::blank_state()) {
         negotiate();
         hapflow_session_config c{};
         detail::check(hapflow_session_config_init(&c, detail::size_of<hapflow_session_config>()), "config");
@@ -240,8 +398,23 @@ public:
         c.settings = detail::c_text_or_null(config.settings, "settings");
         c.threads = config.threads;
         c.fluid_drive = config.fluid_drive;
-        detail::check(hapflow_tool_state_init(&blank_, detail::size_of<hapflow_tool_state>()), "tool state");
+        c.servo_drive = config.servo_drive;
+        std::vector<hapflow_device> handles;
+        for (const Device& device : devices) {
+            handles.push_back(device.handle());
+        }
+        c.device_count = static_cast<std::uint32_t>(handles.size());
+        c.devices = handles.data();
+        if (config.log) {
+            log_ = std::make_unique<Log>();
+            log_->function = config.log;
+            c.log = &Log::tell;
+            c.log_user = log_.get();
+        }
         detail::check_main(hapflow_session_create(&c, &session_), "session");
+        for (Device& device : devices) {
+            device.release();
+        }
     }
 
     Session(const Session&) = delete;
@@ -250,7 +423,9 @@ public:
     /// Leaves a null session in `other`: all that it does fails with HAPFLOW_ERROR_HANDLE. [any] But this thread must
     /// have both for itself, as for every move.
     Session(Session&& other) noexcept
-        : session_(std::exchange(other.session_, hapflow_session{})), blank_(other.blank_) {}
+        : session_(std::exchange(other.session_, hapflow_session{})),
+          blank_(other.blank_),
+          log_(std::move(other.log_)) {}
 
     /// Destroys what it had, and takes over the other's. [main] This thread must have both for itself.
     Session& operator=(Session&& other) noexcept {
@@ -258,6 +433,7 @@ public:
             end();
             session_ = std::exchange(other.session_, hapflow_session{});
             blank_ = other.blank_;
+            log_ = std::move(other.log_);
         }
         return *this;
     }
@@ -281,17 +457,15 @@ public:
         c.buttons = state.buttons;
         c.time_s = state.time_s;
         c.dt_s = state.dt_s;
-        copy(state.position, c.position);
-        copy(state.orientation, c.orientation);
-        copy(state.velocity, c.velocity);
-        copy(state.angular_velocity, c.angular_velocity);
+        detail::copy(state.position, c.position);
+        detail::copy(state.orientation, c.orientation);
+        detail::copy(state.velocity, c.velocity);
+        detail::copy(state.angular_velocity, c.angular_velocity);
         hapflow_wrench wrench{};
         Tick tick;
         tick.result = hapflow_servo_tick(session_, &c, &wrench);
-        for (std::size_t i = 0; i < 3; i++) {
-            tick.wrench.force[i] = wrench.force[i];
-            tick.wrench.torque[i] = wrench.torque[i];
-        }
+        detail::copy(wrench.force, tick.wrench.force);
+        detail::copy(wrench.torque, tick.wrench.torque);
         return tick;
     }
 
@@ -454,18 +628,42 @@ public:
         return report;
     }
 
+    /// How the servo of a tool keeps time, if the session ticks it. [main] Never waits for it.
+    [[nodiscard]] ServoPace servo_pace(std::uint32_t tool = 0) const {
+        ServoPace pace{};
+        detail::check(hapflow_servo_pace_init(&pace, detail::size_of<ServoPace>()), "servo_pace");
+        detail::check_main(hapflow_session_servo_pace(session_, tool, &pace), "servo_pace");
+        return pace;
+    }
+
+    /// Tells Config::log what has happened since the last call; a few times a second is enough. [main]
+    void poll() {
+        detail::check_main(hapflow_session_poll(session_), "poll");
+        if (log_ && log_->thrown) {
+            std::rethrow_exception(std::exchange(log_->thrown, nullptr));
+        }
+    }
+
 private:
+    // What the library calls; it stays where it is when the session is moved.
+    struct Log {
+        std::function<void(std::uint32_t, const std::string&)> function;
+        std::exception_ptr thrown; // the first; nothing may leave through the library
+
+        static void tell(std::uint32_t level, const char* text, void* user) noexcept {
+            Log& log = *static_cast<Log*>(user);
+            try {
+                log.function(level, text);
+            } catch (...) {
+                log.thrown = log.thrown ? log.thrown : std::current_exception();
+            }
+        }
+    };
+
     // Fails only if there is no session any more, and then there is nothing to do.
     void end() noexcept {
         if (session_.id != 0) {
             static_cast<void>(hapflow_session_destroy(session_));
-        }
-    }
-
-    template <std::size_t N>
-    static void copy(const std::array<double, N>& from, double (&to)[N]) noexcept {
-        for (std::size_t i = 0; i < N; i++) {
-            to[i] = from[i];
         }
     }
 
@@ -490,7 +688,8 @@ private:
     }
 
     hapflow_session session_{};
-    hapflow_tool_state blank_{}; // what the library takes for a tool at rest: fields that are not here keep theirs
+    hapflow_tool_state blank_{};
+    std::unique_ptr<Log> log_;
 };
 
 } // namespace hapflow
