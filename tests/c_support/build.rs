@@ -36,8 +36,12 @@ pub fn scratch() -> PathBuf {
     dir
 }
 
-/// The path of libhapflow, built with this test's profile into this test's target directory.
+/// The path of libhapflow: `HAPFLOW_LIBRARY`, for one with all parts that was built in another way; else it is built
+/// with this test's profile into this test's target directory.
 pub fn library(variant: Variant) -> PathBuf {
+    if let Some(given) = env::var_os("HAPFLOW_LIBRARY").filter(|_| variant != Variant::Bare) {
+        return given.into();
+    }
     static BUILT: [OnceLock<PathBuf>; 3] = [const { OnceLock::new() }; 3];
     BUILT[variant as usize].get_or_init(|| build(variant)).clone()
 }
