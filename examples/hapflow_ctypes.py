@@ -9,7 +9,7 @@ from ctypes import CDLL, POINTER, Structure, byref, c_char_p, c_double, c_size_t
 from ctypes import create_string_buffer, sizeof
 
 
-class Config(Structure):  # the structs are those of hapflow.h, field by field
+class Config(Structure):  # the structs are those of the headers; of this one the first fields, as its size says
     _fields_ = [("kind", c_uint32), ("size", c_uint32), ("next", c_void_p), ("scene", c_char_p), ("toml", c_char_p),
                 ("toml_length", c_size_t), ("settings", c_char_p), ("threads", c_uint32), ("fluid_drive", c_uint32)]
 

@@ -196,6 +196,24 @@ fn the_c_example_gives_the_force_of_the_rust_run() {
 }
 
 #[test]
+fn a_session_drives_the_simulated_hand_in_threads_of_its_own() {
+    let program = scratch().join("hand");
+    link(&root().join("examples/hand.c"), &program);
+    let mut hand = Command::new(&program);
+    hand.args(["1.2", "run.backend = analytic-jet\ngate.ramp_in = 0"]);
+    hand.env("LD_LIBRARY_PATH", library(Variant::Shipped).parent().unwrap());
+    let output = hand.output().unwrap();
+    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{err}");
+    assert!(err.contains("real-time priority of the servo: "), "{err}");
+    let down = |line: &str| -> Option<f64> {
+        line.rsplit(", ").next()?.strip_suffix(" N down")?.trim().parse().ok()
+    };
+    assert!(out.lines().filter_map(down).fold(0.0, f64::max) > 0.05, "nothing was felt: {out}");
+    assert!(out.lines().last().unwrap().contains(" ticks, "), "{out}");
+}
+
+#[test]
 fn the_example_says_what_is_wrong_and_is_short() {
     let source = fs::read_to_string(root().join("examples/tap.c")).unwrap();
     assert!(source.lines().count() < 60);

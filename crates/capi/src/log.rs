@@ -154,6 +154,8 @@ pub extern "C" fn hapflow_session_poll(session: Handle) -> Code {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hapflow_engine::TickTimes;
+    use hapflow_realtime::Refusal;
 
     fn told(tool: &mut ToolTold, faults: FaultSet) -> Vec<String> {
         let mut lines = Lines::new();
@@ -173,6 +175,23 @@ mod tests {
         assert_eq!(told(&mut tool, FaultSet::NONE), ["3 no more: emergency stop"]);
         assert_eq!(told(&mut tool, FaultSet::STALE).len(), 1);
         assert_eq!(told(&mut tool, FaultSet::NONE).len(), 1);
+    }
+
+    #[test]
+    fn a_servos_priority_is_told_once_and_its_end_once() {
+        let mut tool = ToolTold::default();
+        let refused = Grant::Refused(Refusal::NotSupported);
+        let mut told = |runs| {
+            let pace = ServoPace { priority: refused.clone(), runs, ticks: TickTimes::default() };
+            let mut lines = Lines::new();
+            tool.pace(&pace, &mut lines);
+            lines.into_iter().map(|(level, text)| (level as u32, text)).collect::<Vec<_>>()
+        };
+        let first = told(true);
+        assert!(first.len() == 1 && first[0].0 == c::HAPFLOW_LOG_WARNING && first[0].1.contains("refused: "));
+        assert_eq!(told(true), []);
+        assert_eq!(told(false), [(c::HAPFLOW_LOG_ERROR, "the servo has ended".into())]);
+        assert_eq!(told(false), []);
     }
 
     #[test]
