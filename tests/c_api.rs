@@ -63,7 +63,8 @@ fn every_function_states_its_thread_class() {
     }
 }
 
-/// A program that counts every allocation in its process while it ticks, also on refusals and after a stop.
+/// A program that counts every allocation in its process while it ticks and drives a device, also on refusals and
+/// after a stop.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 const COUNTING: &str = r#"
 #include <hapflow/hapflow.h>
@@ -88,28 +89,35 @@ int main(void) {
     config.settings = "run.backend = analytic-jet";
     const double place[3] = {0.1, 0, 0}, upright[4] = {0, 0, 0, 1};
     if (hapflow_session_create(&config, &session) || hapflow_tool_state_init(&state, sizeof state)) return 3;
+    hapflow_device_config hand;
+    hapflow_device device;
+    if (hapflow_device_config_init(&hand, sizeof hand) || hapflow_device_open(&hand, &device)) return 10;
     long before_all = calls;
     if (before_all < 10) return 4; /* not counting */
     for (int n = 0; n < 3000; n++) {
         state.time_s = n * 1e-3;
         if (hapflow_fluid_advance(session, state.time_s)) return 5;
         long before = calls;
+        if (hapflow_device_read(device, state.time_s, &state)) return 11;
         if (n == 2000) state.velocity[0] = NAN;
         hapflow_result result = hapflow_servo_tick(session, &state, &wrench);
         if (n == 2000 && result != HAPFLOW_ERROR_NOT_FINITE) return 6;
         if (n == 2500) hapflow_session_emergency_stop(session);
+        if (n == 2700) wrench.force[0] = NAN;
+        if ((hapflow_device_write(device, &wrench, state.dt_s) < 0) != (n == 2700)) return 12;
         if (hapflow_obstacle_move(session, 0, place, upright) != HAPFLOW_ERROR_INDEX) return 8;
         if (hapflow_obstacle_publish(session)) return 9;
         state.velocity[0] = 0;
         if (calls != before) return 1;
     }
+    if (hapflow_device_close(device)) return 13;
     return hapflow_session_destroy(session) ? 7 : 0;
 }
 "#;
 
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 #[test]
-fn a_tick_allocates_nothing() {
+fn a_tick_and_a_device_allocate_nothing() {
     let (source, program) = (scratch().join("counting.c"), scratch().join("counting"));
     fs::write(&source, COUNTING).unwrap();
     link(&source, &program);
