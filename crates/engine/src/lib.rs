@@ -16,6 +16,7 @@
 mod builtin;
 mod error;
 mod fluid_unit;
+mod force_limit;
 mod obstacles;
 mod recording;
 pub mod run;

@@ -1,5 +1,6 @@
 //! A scene: everything that a session is made of, as plain data.
 
+use crate::force_limit::ForceLimit;
 use crate::{SceneError, Value, settings};
 use glam::DVec3;
 use hapflow_devices::{HandPreset, HandSettings, Segment};
@@ -344,7 +345,8 @@ impl Scene {
                 settings::set_live(&mut after, path, value)?;
             }
         }
-        after.check().map_err(|e| SceneError::Refused(format!("change at {} s: {e}", change.at_s)))
+        let checked = ForceLimit::new(self.gate).check(&after.gate).and_then(|()| after.check());
+        checked.map_err(|e| SceneError::Refused(format!("change at {} s: {e}", change.at_s)))
     }
 }
 

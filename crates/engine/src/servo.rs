@@ -1,5 +1,6 @@
 //! One servo tick. Thread: servo, one at a time; no lock, no allocation, no log, no system call.
 
+use crate::force_limit::ForceLimit;
 use glam::DVec3;
 use hapflow_haptics::{
     FaultSet, Filter, GateSettings, GatedWrench, LocalModel, Mapping, ModelAge, SafetyGate, ToolState, Wrench,
@@ -51,6 +52,7 @@ pub struct ServoUnit {
     pub(crate) mapping: Mapping,
     pub(crate) filter: Filter,
     pub(crate) gate: SafetyGate,
+    pub(crate) limit: ForceLimit,
     pub(crate) force_scale: f64,
     pub(crate) frame_s: f64,
     pub(crate) path: RingProducer<PathSample>,
@@ -135,6 +137,7 @@ impl ServoUnit {
             // They were checked on main; if not, the old ones stay.
             let _ = self.gate.set_settings(new.gate);
         }
+        self.limit.hold(&mut self.gate);
         if self.clear.load() != 0 {
             self.clear.clear(u32::MAX);
             self.gate.clear_faults();

@@ -1,6 +1,7 @@
 //! A session: a scene made to run, its two halves, and what main may do with it.
 
 use crate::fluid_unit::{FluidReport, FluidUnit};
+use crate::force_limit::ForceLimit;
 use crate::obstacles::{ObstacleMover, Obstacles, obstacle_poses};
 use crate::scene::{BackendKind, DeviceKind, Scene, ToolSettings};
 use crate::servo::{ServoReport, ServoSettings, ServoUnit};
@@ -11,7 +12,7 @@ use crate::{SceneError, Value, settings};
 use glam::DVec3;
 use hapflow_devices::{AtEnd, HapticDevice, Motion, NullDevice, Replay, SimulatedHand, TargetScript};
 use hapflow_fluid::{AnalyticJet, CpuBackend, FluidBackend, FluidConfig, ParticleView};
-use hapflow_haptics::{FaultSet, Filter, LocalModel, SafetyGate, ToolState};
+use hapflow_haptics::{FaultSet, Filter, LocalModel, RangeError, SafetyGate, ToolState};
 use hapflow_realtime::{
     Clock, HostClock, LatestReader, LatestWriter, RealtimeStatus, RingConsumer, SharedFlags, latest, ring,
 };
@@ -69,6 +70,7 @@ impl SessionOptions {
 /// lock.
 pub(crate) struct Shared {
     state: Mutex<State>,
+    limit: ForceLimit,
     version: AtomicU64,
     threads: usize,
     wanted: AtomicBool,
@@ -91,11 +93,17 @@ impl Shared {
 
     fn set(&self, path: &str, value: &Value) -> Result<(), SceneError> {
         let mut state = self.state();
-        let mut scene = state.scene.clone();
+        let mut scene = self.as_it_stands(&state);
         settings::set_live(&mut scene, path, value)?;
+        self.limit.check(&scene.gate)?;
         scene.check()?;
         self.install(&mut state, scene);
         Ok(())
+    }
+
+    /// The scene, with a force limit that was lowered since in place of its own.
+    fn as_it_stands(&self, state: &State) -> Scene {
+        Scene { gate: self.limit.applied(state.scene.gate), ..state.scene.clone() }
     }
 
     fn install(&self, state: &mut State, scene: Scene) {
@@ -144,10 +152,11 @@ fn servo_settings(scene: &Scene, tool: &ToolSettings) -> ServoSettings {
     ServoSettings { gate: scene.gate, force_scale: tool.force_scale }
 }
 
-/// What any thread may do with a session: raise and clear faults.
+/// What any thread may do with a session: raise and clear faults, and limit its forces.
 #[derive(Clone, Debug)]
 pub struct Control {
     flags: SharedFlags,
+    limit: ForceLimit,
     /// One for each tool, whose gate answers it by itself.
     clear: Vec<SharedFlags>,
 }
@@ -169,6 +178,15 @@ impl Control {
         for tool in &self.clear {
             tool.raise(1);
         }
+    }
+
+    /// From the next tick on no tool's force is larger than `max_force_n` (N) and no torque than `max_torque_nm`
+    /// (N·m), for the rest of the session: a limit can be lowered and never raised. Thread: any.
+    ///
+    /// # Errors
+    /// A number that is not from 0 to the present limit; nothing changes then.
+    pub fn limit_force(&self, max_force_n: f64, max_torque_nm: f64) -> Result<(), RangeError> {
+        self.limit.lower(max_force_n, max_torque_nm)
     }
 
     /// Faults that are raised. Thread: any.
@@ -218,17 +236,21 @@ impl Session {
         let threads = if options.threads == 0 { default_threads() } else { options.threads };
         let config = scene.fluid_config(threads);
         config.check()?;
-        let control =
-            Control { flags: SharedFlags::new(), clear: scene.tools().map(|_| SharedFlags::new()).collect() };
+        let control = Control {
+            flags: SharedFlags::new(),
+            limit: ForceLimit::new(scene.gate),
+            clear: scene.tools().map(|_| SharedFlags::new()).collect(),
+        };
         let (mut tools, mut lanes, mut writers) = (Vec::new(), Vec::new(), Vec::new());
         for (tool, clear) in scene.tools().zip(&control.clear) {
-            let (ends, lane, writer) = open_tool(scene, tool, &control.flags, clear, options.tape)?;
+            let (ends, lane, writer) = open_tool(scene, tool, &control, clear, options.tape)?;
             tools.push(ends);
             lanes.push(lane);
             writers.push(writer);
         }
         let shared = Arc::new(Shared {
             state: Mutex::new(State { scene: scene.clone(), changed: 0, servo: writers }),
+            limit: control.limit.clone(),
             version: AtomicU64::new(0),
             threads,
             wanted: AtomicBool::new(false),
@@ -331,7 +353,8 @@ impl Session {
         self.control.clone()
     }
 
-    /// Sets a live setting; it acts from the next fluid frame and the next tick on.
+    /// Sets a live setting; it acts from the next fluid frame and the next tick on. The limits of the gate can only
+    /// be lowered below those of the scene.
     ///
     /// # Errors
     /// What the setting's range, or stability, refuses; everything stays as it was.
@@ -344,7 +367,7 @@ impl Session {
     /// # Errors
     /// An unknown path.
     pub fn get(&self, path: &str) -> Result<Value, SceneError> {
-        settings::get(&self.shared.state().scene, path)
+        settings::get(&self.shared.as_it_stands(&self.shared.state()), path)
     }
 
     /// The first tool's newest tick.
@@ -427,7 +450,7 @@ fn default_threads() -> usize {
 fn open_tool(
     scene: &Scene,
     tool: &ToolSettings,
-    flags: &SharedFlags,
+    control: &Control,
     clear: &SharedFlags,
     tape: usize,
 ) -> Result<(ToolEnds, ToolLane, LatestWriter<ServoSettings>), SceneError> {
@@ -443,12 +466,13 @@ fn open_tool(
         mapping,
         filter: Filter::new(&scene.filter(), 1000.0)?,
         gate: SafetyGate::new(scene.gate)?,
+        limit: control.limit.clone(),
         force_scale: tool.force_scale,
         frame_s: 1.0 / scene.run.fluid_hz,
         path,
         model,
         settings,
-        flags: flags.clone(),
+        flags: control.flags.clone(),
         clear: clear.clone(),
         report: report_in,
         tape: tape_in,

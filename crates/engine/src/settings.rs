@@ -395,7 +395,14 @@ pub const SETTINGS: &[Setting<Scene>] = &[
         tool.force_scale,
         "Factor on the fluid's force before filter and gate."
     ),
-    number!("gate.max_force", "N", 0.0..=50.0, LIVE, gate.max_force_n, "Largest force that leaves."),
+    number!(
+        "gate.max_force",
+        "N",
+        0.0..=50.0,
+        LIVE,
+        gate.max_force_n,
+        "Largest force that leaves. While a session runs it may only be lowered below the scene's; likewise the next three."
+    ),
     number!("gate.max_torque", "N·m", 0.0..=5.0, LIVE, gate.max_torque_nm, "Largest torque that leaves."),
     number!("gate.max_slew", "N/s", 1.0..=1e6, LIVE, gate.max_slew_n_per_s, "Fastest change of the force."),
     number!(

@@ -44,7 +44,7 @@ impl ModelAge {
 ///
 /// A tick that is not positive and finite counts as 0: the wrench stays as it was, faults still act. One
 /// above [`MAX_TICK_S`] counts as that for slew and ramp, and whole for the fade. Limits that are lowered
-/// while a force is up act at once: the size matters more than the slew.
+/// while a force is up act at once: the size matters more than the slew, but it shrinks and no more.
 #[derive(Clone, Debug)]
 pub struct SafetyGate {
     settings: GateSettings,
@@ -78,6 +78,14 @@ impl SafetyGate {
         settings.check()?;
         self.settings = settings;
         Ok(())
+    }
+
+    /// Brings its limits down to these sizes, N and N·m, for as long as they are above; those of
+    /// [`set_settings`](Self::set_settings) take their place. What is no number counts as 0.
+    pub fn lower(&mut self, max_force_n: f64, max_torque_nm: f64) {
+        let lower = |own: f64, limit: f64| if limit >= 0.0 { own.min(limit) } else { 0.0 };
+        self.settings.max_force_n = lower(self.settings.max_force_n, max_force_n);
+        self.settings.max_torque_nm = lower(self.settings.max_torque_nm, max_torque_nm);
     }
 
     /// One tick: `wanted` is the wrench that was computed, `age` that of the fluid's data, `faults` what the

@@ -1,6 +1,6 @@
 //! Wait-free hand-overs, clocks and real-time threads of hapflow.
 //!
-//! What two threads pass each other goes through one of three things, none of which locks, waits or allocates
+//! What two threads pass each other goes through one of four things, none of which locks, waits or allocates
 //! after it was built:
 //!
 //! | need | here | writer | reader |
@@ -8,6 +8,7 @@
 //! | the newest value, older ones do not matter | [`latest()`] | wait-free | wait-free |
 //! | every value in order, the oldest go on overflow | [`ring()`] | wait-free | lock-free |
 //! | bits that any thread raises | [`SharedFlags`] | wait-free | wait-free |
+//! | a limit that any thread lowers | [`Ceiling`] | lock-free | wait-free |
 //!
 //! What a handle of the C interface names lies in a [`Lane`], which lets one thread in at a time and finds stale handles.
 //!
@@ -23,6 +24,7 @@
 //! --release --test loom` tries every interleaving of small models with
 //! [loom](https://docs.rs/loom) in place of the real ones.
 
+mod ceiling;
 mod clock;
 mod flags;
 mod lane;
@@ -35,6 +37,7 @@ mod status;
 mod sync;
 mod thread;
 
+pub use ceiling::Ceiling;
 pub use clock::{Clock, DEFAULT_SPIN_MARGIN, HostClock, RealClock, VirtualClock, process_cpu_s};
 pub use flags::SharedFlags;
 pub use lane::{Alone, Claimed, Faultable, Lane, Refused, Sharing};

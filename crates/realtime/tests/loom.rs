@@ -3,7 +3,7 @@
 #![cfg(loom)]
 
 use hapflow_realtime::{
-    Faultable, Lane, LatestReader, LatestWriter, Refused, RingConsumer, RingProducer, SharedFlags,
+    Ceiling, Faultable, Lane, LatestReader, LatestWriter, Refused, RingConsumer, RingProducer, SharedFlags,
     latest_with, ring,
 };
 use loom::{cell::UnsafeCell, sync::Arc, thread};
@@ -255,5 +255,20 @@ fn what_is_opened_again_is_as_it_was() {
         lane.close(1).unwrap().reopen();
         let entered = entering.join().unwrap();
         assert_eq!(lane.enter(1).unwrap().get(), u64::from(entered));
+    });
+}
+
+#[test]
+fn a_ceiling_ends_at_the_lowest() {
+    loom::model(|| {
+        let ceiling = Ceiling::new(4.0);
+        let (a, b) = (ceiling.clone(), ceiling.clone());
+        let first = thread::spawn(move || a.lower(2.0));
+        let second = thread::spawn(move || b.lower(3.0));
+        let seen = ceiling.get();
+        assert!(ceiling.get() <= seen);
+        first.join().unwrap();
+        second.join().unwrap();
+        assert_eq!(ceiling.get(), 2.0);
     });
 }

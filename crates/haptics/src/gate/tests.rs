@@ -304,3 +304,44 @@ fn a_release_is_at_once_and_what_comes_next_rises_from_zero() {
     assert!((next - 1.0).abs() < 1e-9, "{next}: 1000 N/s for 1 ms");
     assert!(gate.latched().is_empty());
 }
+/// `now` is a vector within `change` of `before`, shortened or not: a limit may shrink a force at once, and no more.
+fn follows(before: DVec3, now: DVec3, change: f64) -> bool {
+    // The point nearest to `before` on the ray from `now` outwards.
+    let along = now.normalize_or_zero();
+    let nearest = along * before.dot(along).max(now.length());
+    nearest.distance(before) <= change + 1e-12
+}
+
+#[test]
+fn a_lowered_limit_shrinks_the_force_at_once_and_makes_no_other_jump() {
+    for seed in 1..=40 {
+        let mut random = Random(seed);
+        let settings = random_settings(&mut random);
+        let mut gate = SafetyGate::new(settings).unwrap();
+        let (mut force, mut torque) = (settings.max_force_n, settings.max_torque_nm);
+        let mut before = Wrench::ZERO;
+        for tick in 0..1000 {
+            if random.next().is_multiple_of(50) {
+                (force, torque) = (force * random.unit(), torque * random.unit());
+                gate.lower(force, torque);
+                // Never raised again, whatever is asked for.
+                gate.lower(50.0, f64::INFINITY);
+            }
+            let now = gate.pass(random.wrench(50, &FINITE), &FRESH, FaultSet::NONE, DT).wrench();
+            assert!(now.force.length() <= force && now.torque.length() <= torque, "seed {seed} tick {tick}");
+            assert!(follows(before.force, now.force, settings.max_slew_n_per_s * DT), "{before:?} {now:?}");
+            let turn = settings.max_torque_slew_nm_per_s * DT;
+            assert!(follows(before.torque, now.torque, turn), "{before:?} {now:?}");
+            before = now;
+        }
+    }
+}
+
+#[test]
+fn what_is_no_limit_lets_nothing_out() {
+    for limit in [f64::NAN, -1.0] {
+        let mut gate = open();
+        gate.lower(limit, limit);
+        assert_eq!(run(&mut gate, 10, 2.0, &FRESH), 0.0);
+    }
+}
