@@ -62,12 +62,15 @@ fn a_hundred_thousand_ticks_allocate_nothing() {
         ["none", "bartlett-hann:11@fluid", "hann:33@servo", "butterworth:50:4@servo", "one-euro:5:0.5@servo"];
     for filter in filters {
         for coupling in ["direct", "momentum"] {
-            let scene = jet(&[
+            let mut scene = jet(&[
                 ("run.backend", word("analytic-jet")),
                 ("run.filter", word(filter)),
                 ("run.coupling", word(coupling)),
                 ("mapping.rim_radius", Value::Number(0.05)),
+                ("tool.solid_stiffness", Value::Number(500.0)),
             ]);
+            // Under the tool, so that it is touched.
+            scene.ground = Some(-0.012);
             let seen = ticks(&scene, 100_000 / (filters.len() * 2));
             assert_eq!(seen, 0, "{filter}, {coupling}");
         }

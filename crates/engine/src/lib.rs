@@ -29,6 +29,7 @@ pub mod signal;
 mod threads;
 mod tick_times;
 mod tool_lane;
+mod touch;
 mod value;
 
 pub use builtin::{load, shipped};

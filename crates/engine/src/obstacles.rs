@@ -1,8 +1,10 @@
 //! Obstacles that the host moves: poses go to the fluid wait-free, the newest wins.
 
 use crate::scene::MAX_OBSTACLES;
+use crate::touch::{SolidPath, SolidPaths, solid_shape};
 use glam::{DQuat, DVec3};
 use hapflow_fluid::{BodyConfig, BodySample};
+use hapflow_haptics::Pose;
 use hapflow_realtime::{LatestReader, LatestWriter, latest};
 
 /// Where each obstacle is to be, in the order of the scene; none where the host has not moved it.
@@ -49,11 +51,17 @@ impl ObstacleMover {
 pub(crate) struct Obstacles {
     poses: LatestReader<Poses>,
     paths: Vec<[BodySample; 2]>,
+    /// To the servos of tools that feel solids.
+    felt: Vec<LatestWriter<SolidPaths>>,
 }
 
 impl Obstacles {
-    pub fn new(poses: LatestReader<Poses>, bodies: &[BodyConfig]) -> Self {
-        Self { poses, paths: bodies.iter().map(|b| [BodySample::at(b.position); 2]).collect() }
+    pub fn new(
+        poses: LatestReader<Poses>,
+        bodies: &[BodyConfig],
+        felt: Vec<LatestWriter<SolidPaths>>,
+    ) -> Self {
+        Self { poses, paths: bodies.iter().map(|b| [BodySample::at(b.position); 2]).collect(), felt }
     }
 
     /// The path of each obstacle through the frame that ends at `end_s`.
@@ -69,6 +77,20 @@ impl Obstacles {
             let start = BodySample { time: end_s - frame_s, velocity, angular_velocity, ..from };
             *path = [start, BodySample { time: end_s, position, orientation, velocity, angular_velocity }];
         }
+        self.tell(bodies, end_s, frame_s);
         &self.paths
+    }
+
+    /// Tells the servos.
+    fn tell(&mut self, bodies: &[BodyConfig], end_s: f64, frame_s: f64) {
+        for writer in &mut self.felt {
+            let told = writer.buffer();
+            (told.end_s, told.frame_s) = (end_s, frame_s);
+            for ((to, path), body) in told.paths.iter_mut().zip(&self.paths).zip(bodies) {
+                let [from, end] = path.map(|s| Pose { position: s.position, orientation: s.orientation });
+                *to = SolidPath { shape: solid_shape(body.shape), from, to: end };
+            }
+            writer.publish();
+        }
     }
 }

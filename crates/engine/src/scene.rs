@@ -7,7 +7,7 @@ use hapflow_devices::{HandPreset, HandSettings, Segment};
 use hapflow_fluid::{
     Aabb, BodyConfig, FluidConfig, FluidSettings, MIN_MASS_RATIO, OpenBox, Shape, Source, World,
 };
-use hapflow_haptics::{CouplingKind, FilterSpec, GateSettings, Mapping, Rim, Workspace};
+use hapflow_haptics::{CouplingKind, FilterSpec, GateSettings, Mapping, Rim, SolidFeel, Workspace};
 
 /// Who computes the fluid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,6 +79,8 @@ pub struct ToolSettings {
     pub position: DVec3,
     /// Factor on the fluid's force before filter and gate.
     pub force_scale: f64,
+    /// How the scene's solids feel; not at all with a stiffness of 0.
+    pub solids: SolidFeel,
 }
 
 /// Most obstacles in a scene.
@@ -119,6 +121,7 @@ impl Default for ToolSettings {
             collision_response: 0.2,
             position: DVec3::ZERO,
             force_scale: 1.0,
+            solids: SolidFeel { stiffness_n_per_m: 0.0, damping_n_s_per_m: 0.0 },
         }
     }
 }
@@ -367,6 +370,13 @@ impl ToolSettings {
     }
 }
 
+impl Obstacle {
+    /// The shape, with its sizes.
+    pub fn shape(&self) -> Shape {
+        self.shape.sized(self.radius, self.thickness)
+    }
+}
+
 fn tool_body(tool: &ToolSettings) -> BodyConfig {
     BodyConfig {
         shape: tool.shape(),
@@ -378,7 +388,7 @@ fn tool_body(tool: &ToolSettings) -> BodyConfig {
 
 fn obstacle_body(obstacle: &Obstacle) -> BodyConfig {
     BodyConfig {
-        shape: obstacle.shape.sized(obstacle.radius, obstacle.thickness),
+        shape: obstacle.shape(),
         // It is led: its mass plays no part.
         mass: 1.0,
         collision_response: 0.0,

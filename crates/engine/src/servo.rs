@@ -1,6 +1,7 @@
 //! One servo tick. Thread: servo, one at a time; no lock, no allocation, no log, no system call.
 
 use crate::force_limit::ForceLimit;
+use crate::touch::Touch;
 use glam::DVec3;
 use hapflow_haptics::{
     FaultSet, Filter, GateSettings, GatedWrench, LocalModel, Mapping, ModelAge, SafetyGate, ToolState, Wrench,
@@ -20,6 +21,8 @@ pub(crate) struct PathSample {
 pub(crate) struct ServoSettings {
     pub gate: GateSettings,
     pub force_scale: f64,
+    /// Radius of the ball round the tool, m.
+    pub reach: f64,
 }
 
 /// What came of the newest tick.
@@ -54,6 +57,9 @@ pub struct ServoUnit {
     pub(crate) gate: SafetyGate,
     pub(crate) limit: ForceLimit,
     pub(crate) force_scale: f64,
+    pub(crate) reach: f64,
+    /// Where the solids are felt.
+    pub(crate) touch: Option<Touch>,
     pub(crate) frame_s: f64,
     pub(crate) path: RingProducer<PathSample>,
     pub(crate) model: LatestReader<LocalModel>,
@@ -92,12 +98,15 @@ impl ServoUnit {
             clock.set_ns((time_s * 1e9) as u64);
         }
         let tool = self.mapping.to_scene(self.last_device);
-        let lost = self.path.push(PathSample { time_s, tool });
+        let (in_fluid, pushed) = self.touch_solids(&tool, time_s, dt_s);
+        let lost = self.path.push(PathSample { time_s, tool: in_fluid });
         let new_frame = self.model.update();
         let model = *self.model.get();
         let raw = model.evaluate(&tool) * self.force_scale;
         let filtered = self.filter.step(raw, new_frame);
-        let wanted = self.mapping.to_device(filtered) + self.mapping.rim_force(&self.last_device);
+        // Solids are not filtered: they would feel late, and soft.
+        let felt = filtered + Wrench::from_force(pushed);
+        let wanted = self.mapping.to_device(felt) + self.mapping.rim_force(&self.last_device);
         let age = self.age(&model, time_s);
         let faults = faults | FaultSet::PATH_OVERFLOW.when(lost);
         let sent = self.gate.pass(wanted, &age, faults, dt_s);
@@ -133,7 +142,7 @@ impl ServoUnit {
     fn take_settings(&mut self) {
         if self.settings.update() {
             let new = *self.settings.get();
-            self.force_scale = new.force_scale;
+            (self.force_scale, self.reach) = (new.force_scale, new.reach);
             // They were checked on main; if not, the old ones stay.
             let _ = self.gate.set_settings(new.gate);
         }
@@ -141,7 +150,18 @@ impl ServoUnit {
         if self.clear.load() != 0 {
             self.clear.clear(u32::MAX);
             self.gate.clear_faults();
+            if let Some(touch) = &mut self.touch {
+                touch.reset();
+            }
         }
+    }
+
+    /// The tool as solids let it be, and how they push the hand; without any, or where they are not felt, as it is.
+    fn touch_solids(&mut self, tool: &ToolState, time_s: f64, dt_s: f64) -> (ToolState, DVec3) {
+        let Some(touch) = &mut self.touch else { return (*tool, DVec3::ZERO) };
+        let touching = touch.tick(tool, self.reach, time_s, dt_s);
+        let in_fluid = ToolState { position: touching.proxy, velocity: touching.velocity, ..*tool };
+        (in_fluid, touching.force())
     }
 
     /// Keeps the last sound state: what is not finite never reaches the fluid.

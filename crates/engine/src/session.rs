@@ -8,11 +8,12 @@ use crate::servo::{ServoReport, ServoSettings, ServoUnit};
 use crate::threads::{FluidPace, FluidThread, ServoPace, ServoThread};
 use crate::tick_times::TickTimes;
 use crate::tool_lane::ToolLane;
+use crate::touch::{SolidPaths, Touch};
 use crate::{SceneError, Value, settings};
 use glam::DVec3;
 use hapflow_devices::{AtEnd, HapticDevice, Motion, NullDevice, Replay, SimulatedHand, TargetScript};
 use hapflow_fluid::{AnalyticJet, CpuBackend, FluidBackend, FluidConfig, ParticleView};
-use hapflow_haptics::{FaultSet, Filter, LocalModel, RangeError, SafetyGate, ToolState};
+use hapflow_haptics::{FaultSet, Filter, LocalModel, RangeError, SafetyGate, ToolState, Touching};
 use hapflow_realtime::{
     Clock, HostClock, LatestReader, LatestWriter, RealtimeStatus, RingConsumer, SharedFlags, latest, ring,
 };
@@ -149,7 +150,7 @@ impl Shared {
 }
 
 fn servo_settings(scene: &Scene, tool: &ToolSettings) -> ServoSettings {
-    ServoSettings { gate: scene.gate, force_scale: tool.force_scale }
+    ServoSettings { gate: scene.gate, force_scale: tool.force_scale, reach: tool.shape().bounding_radius() }
 }
 
 /// What any thread may do with a session: raise and clear faults, and limit its forces.
@@ -206,6 +207,8 @@ struct Owned {
 struct ToolEnds {
     servo: Option<ServoUnit>,
     report: LatestReader<ServoReport>,
+    /// Where the solids are felt.
+    touching: Option<LatestReader<Touching>>,
     tape: Option<RingConsumer<ServoReport>>,
 }
 
@@ -241,12 +244,13 @@ impl Session {
             limit: ForceLimit::new(scene.gate),
             clear: scene.tools().map(|_| SharedFlags::new()).collect(),
         };
-        let (mut tools, mut lanes, mut writers) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut tools, mut lanes, mut writers, mut felt) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (tool, clear) in scene.tools().zip(&control.clear) {
-            let (ends, lane, writer) = open_tool(scene, tool, &control, clear, options.tape)?;
-            tools.push(ends);
-            lanes.push(lane);
-            writers.push(writer);
+            let opened = open_tool(scene, tool, &control, clear, options.tape)?;
+            tools.push(opened.ends);
+            lanes.push(opened.lane);
+            writers.push(opened.settings);
+            felt.extend(opened.solids);
         }
         let shared = Arc::new(Shared {
             state: Mutex::new(State { scene: scene.clone(), changed: 0, servo: writers }),
@@ -261,7 +265,7 @@ impl Session {
         let (mover, poses) = obstacle_poses(scene.obstacles.len());
         let fluid = FluidUnit {
             backend: open_backend(scene, &config)?,
-            obstacles: Obstacles::new(poses, &config.world.bodies[lanes.len()..]),
+            obstacles: Obstacles::new(poses, &config.world.bodies[lanes.len()..], felt),
             tools: lanes,
             report,
             flags: control.flags.clone(),
@@ -382,6 +386,18 @@ impl Session {
         Some(*report.get())
     }
 
+    /// What tool `tool` (from 0) touched at its newest tick, and its proxy; if there is such a tool. Where its scene's
+    /// solids are not felt, the proxy is its body in the fluid, and it touches nothing.
+    pub fn touching_of(&mut self, tool: usize) -> Option<Touching> {
+        let ends = self.tools.get_mut(tool)?;
+        if let Some(touching) = &mut ends.touching {
+            touching.update();
+            return Some(*touching.get());
+        }
+        let report = self.report_of(tool)?;
+        Some(Touching::nothing(&ToolState { position: report.body, ..report.tool }))
+    }
+
     /// The newest fluid frame.
     pub fn fluid_report(&mut self) -> FluidReport {
         self.fluid_report.update();
@@ -446,28 +462,44 @@ fn default_threads() -> usize {
     std::thread::available_parallelism().map_or(1, |n| (n.get() - 1).max(n.get().min(2)))
 }
 
-/// Everything that one tool needs: main's ends, the fluid's, and the way of its settings.
+/// Everything that one tool needs.
+struct OpenedTool {
+    ends: ToolEnds,
+    lane: ToolLane,
+    /// Main's way to its servo.
+    settings: LatestWriter<ServoSettings>,
+    /// The fluid's way to it, where the solids are felt.
+    solids: Option<LatestWriter<SolidPaths>>,
+}
+
 fn open_tool(
     scene: &Scene,
     tool: &ToolSettings,
     control: &Control,
     clear: &SharedFlags,
     tape: usize,
-) -> Result<(ToolEnds, ToolLane, LatestWriter<ServoSettings>), SceneError> {
-    let (settings_in, settings) = latest(servo_settings(scene, tool));
+) -> Result<OpenedTool, SceneError> {
+    let first = servo_settings(scene, tool);
+    let (settings_in, settings) = latest(first);
     let (model_in, model) = latest(LocalModel::default());
     let (report_in, report) = latest(ServoReport::default());
     // Two seconds of ticks: more than any fluid frame, and than the gate holds a stale force.
     let (path, path_out) = ring(2048);
     let (tape_in, tape) = (tape > 0).then(|| ring(tape)).unzip();
     let mapping = scene.mapping()?;
+    let (touch, solids, touching) = match Touch::open(scene, tool) {
+        Some((touch, solids, touching)) => (Some(touch), Some(solids), Some(touching)),
+        None => (None, None, None),
+    };
     let servo = ServoUnit {
         last_device: mapping.device_state(ToolState::at(tool.position)),
         mapping,
         filter: Filter::new(&scene.filter(), 1000.0)?,
         gate: SafetyGate::new(scene.gate)?,
         limit: control.limit.clone(),
-        force_scale: tool.force_scale,
+        force_scale: first.force_scale,
+        reach: first.reach,
+        touch,
         frame_s: 1.0 / scene.run.fluid_hz,
         path,
         model,
@@ -481,7 +513,8 @@ fn open_tool(
         pace: None,
     };
     let lane = ToolLane::new(scene.run.coupling.build(), path_out, model_in, tool.position);
-    Ok((ToolEnds { servo: Some(servo), report, tape }, lane, settings_in))
+    let ends = ToolEnds { servo: Some(servo), report, touching, tape };
+    Ok(OpenedTool { ends, lane, settings: settings_in, solids })
 }
 
 fn open_backend(scene: &Scene, config: &FluidConfig) -> Result<Box<dyn FluidBackend>, SceneError> {

@@ -396,6 +396,22 @@ pub const SETTINGS: &[Setting<Scene>] = &[
         "Factor on the fluid's force before filter and gate."
     ),
     number!(
+        "tool.solid_stiffness",
+        "N/m",
+        0.0..=1e4,
+        FIXED,
+        tool.solids.stiffness_n_per_m,
+        "How stiff ground, container and obstacles feel, where the tool counts as the ball round it; 0: not at all. Never gives a hand energy below (2000/s)·(b − solid_damping)/mapping.scale, with b the device's own damping."
+    ),
+    number!(
+        "tool.solid_damping",
+        "N·s/m",
+        0.0..=100.0,
+        FIXED,
+        tool.solids.damping_n_s_per_m,
+        "How much they slow the tool along their normal while it touches."
+    ),
+    number!(
         "gate.max_force",
         "N",
         0.0..=50.0,
@@ -589,6 +605,22 @@ pub const TOOL_SETTINGS: &[Setting<ToolSettings>] = &[
         LIVE,
         force_scale,
         "Factor on the fluid's force before filter and gate."
+    ),
+    number!(
+        "solid_stiffness",
+        "N/m",
+        0.0..=1e4,
+        FIXED,
+        solids.stiffness_n_per_m,
+        "How stiff ground, container and obstacles feel, where the tool counts as the ball round it; 0: not at all. Never gives a hand energy below (2000/s)·(b − solid_damping)/mapping.scale, with b the device's own damping."
+    ),
+    number!(
+        "solid_damping",
+        "N·s/m",
+        0.0..=100.0,
+        FIXED,
+        solids.damping_n_s_per_m,
+        "How much they slow the tool along their normal while it touches."
     ),
 ];
 

@@ -9,6 +9,7 @@
 //! | velocity of a device that gives positions only | [`VelocityEstimator`] |
 //! | move a tool in a fluid and make a force of it | [`Coupling`], [`LocalModel`] |
 //! | device frame to scene frame and back, and a soft edge | [`Mapping`], [`Rim`] |
+//! | feel solids | [`Proxy`] among [`Solid`]s |
 //! | let a force out to a hand | [`SafetyGate`], the only maker of a [`GatedWrench`] |
 #![forbid(unsafe_code)]
 
@@ -20,8 +21,10 @@ mod gate;
 mod gate_settings;
 mod gated_wrench;
 mod mapping;
+mod proxy;
 mod range;
 mod rim;
+mod solid;
 mod types;
 mod velocity;
 
@@ -36,7 +39,9 @@ pub use gate::{MAX_TICK_S, ModelAge, SafetyGate};
 pub use gate_settings::GateSettings;
 pub use gated_wrench::GatedWrench;
 pub use mapping::Mapping;
+pub use proxy::{Contact, MAX_CONTACTS, Proxy, SolidFeel, Touching};
 pub use range::{RangeError, check_range};
 pub use rim::{Rim, Workspace, WorkspaceError};
+pub use solid::{Pose, Solid, SolidKind, SolidShape, ground, open_box};
 pub use types::{ToolState, Wrench};
 pub use velocity::VelocityEstimator;
