@@ -83,6 +83,9 @@ pub struct RunArgs {
     /// Folder for the results, made if absent [default: out/SCENE].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Also write every tick to this CSV file as it comes; `--motion FILE --set run.motion_origin=scene` replays it.
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
     /// Print the summary as JSON and nothing else.
     #[arg(long)]
     pub json: bool,

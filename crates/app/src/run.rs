@@ -109,7 +109,8 @@ fn step(args: &RunArgs, scene: &Scene) -> Result<Outcome, Failure> {
     };
     let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = if args.threads == 0 && !args.realtime { all } else { args.threads };
-    let options = RunOptions { threads, pictures_at: &pictures_at, progress: &mut progress };
+    let record = args.record.as_deref();
+    let options = RunOptions { threads, pictures_at: &pictures_at, record, progress: &mut progress };
     let outcome = if args.realtime { real_time(scene, options) } else { virtual_clock(scene, options) };
     meter.clear();
     Ok(outcome?)

@@ -80,6 +80,15 @@ impl Motion {
         &BUILTIN_NAMES
     }
 
+    /// The same motion with every position put elsewhere.
+    ///
+    /// # Errors
+    /// As [`from_samples`](Self::from_samples).
+    pub fn map(&self, place: impl Fn(DVec3) -> DVec3) -> Result<Self, MotionError> {
+        let sample = |s: &MotionSample| MotionSample { position: place(s.position), ..*s };
+        Self::from_samples(self.samples.iter().map(sample).collect(), &self.name)
+    }
+
     fn build(samples: Vec<MotionSample>, name: String) -> Result<Self, MotionError> {
         if !(2..=MAX_SAMPLES).contains(&samples.len()) {
             return Err(MotionError::Length { file: name, samples: samples.len() });

@@ -79,6 +79,9 @@ pub enum SceneError {
         /// Why.
         cause: io::Error,
     },
+    /// A recording that cannot begin or end now.
+    #[error("recording: {0}")]
+    Recording(&'static str),
     /// A thread that could not be started.
     #[error("could not start the {name} thread: {cause}")]
     Thread {

@@ -18,6 +18,7 @@ mod error;
 mod fluid_unit;
 mod force_limit;
 mod obstacles;
+mod recorder;
 mod recording;
 pub mod run;
 mod scene;
@@ -36,10 +37,11 @@ pub use builtin::{load, shipped};
 pub use error::SceneError;
 pub use fluid_unit::{FluidReport, FluidUnit};
 pub use obstacles::ObstacleMover;
-pub use recording::{Recording, Row};
+pub use recorder::Recorded;
+pub use recording::{Recording, Row, TickWriter};
 pub use scene::{
-    BackendKind, Change, DeviceKind, MAX_OBSTACLES, MAX_TOOLS, MappingSettings, Obstacle, RunSettings, Scene,
-    ToolSettings, ToolShape,
+    BackendKind, Change, DeviceKind, MAX_OBSTACLES, MAX_TOOLS, MappingSettings, MotionOrigin, Obstacle,
+    RunSettings, Scene, ToolSettings, ToolShape,
 };
 pub use scene_file::parse;
 pub use servo::{ServoReport, ServoUnit};

@@ -1,7 +1,8 @@
-//! What a run leaves: one row a tick.
+//! What a run leaves: one row a tick, in memory or in a file.
 
 use crate::{SceneError, ServoReport};
-use std::path::Path;
+use std::fs::File;
+use std::path::{Path, PathBuf};
 
 /// One tick of a recording.
 pub type Row = ServoReport;
@@ -14,7 +15,27 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Columns of [`write_csv`](Self::write_csv): time; tool position and velocity; raw, filtered and sent force.
+    /// Writes the rows as CSV, in the form of a [`TickWriter`].
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write_csv(&self, path: &Path) -> Result<(), SceneError> {
+        let mut writer = TickWriter::create(path)?;
+        self.rows.iter().try_for_each(|row| writer.write(row))?;
+        writer.flush()
+    }
+}
+
+/// Writes the ticks of one tool as CSV. Every number reads back exactly, and the replay device plays the file with
+/// the setting `run.motion_origin = "scene"`. Thread: any one that may block.
+#[derive(Debug)]
+pub struct TickWriter {
+    path: PathBuf,
+    csv: csv::Writer<File>,
+}
+
+impl TickWriter {
+    /// The columns: time; tool position and velocity; raw, filtered and sent force. In the scene's frame.
     pub const COLUMNS: [&str; 16] = [
         "time_s",
         "x_m",
@@ -34,20 +55,34 @@ impl Recording {
         "sent_fz_N",
     ];
 
-    /// Writes the rows as CSV; every number reads back exactly.
+    /// Makes the file anew.
+    ///
+    /// # Errors
+    /// A file that cannot be written, with the cause.
+    pub fn create(path: &Path) -> Result<Self, SceneError> {
+        let failed = |cause: csv::Error| SceneError::Io { path: path.into(), cause: cause.into() };
+        let mut csv = csv::Writer::from_path(path).map_err(failed)?;
+        csv.write_record(Self::COLUMNS).map_err(failed)?;
+        Ok(Self { path: path.into(), csv })
+    }
+
+    /// Adds a tick; it is in the file after a [`flush`](Self::flush).
     ///
     /// # Errors
     /// A file that cannot be written.
-    pub fn write_csv(&self, path: &Path) -> Result<(), SceneError> {
-        let failed = |cause: csv::Error| SceneError::Io { path: path.into(), cause: cause.into() };
-        let mut writer = csv::Writer::from_path(path).map_err(failed)?;
-        writer.write_record(Self::COLUMNS).map_err(failed)?;
-        for row in &self.rows {
-            let vectors =
-                [row.tool.position, row.tool.velocity, row.raw.force, row.filtered.force, row.sent.force];
-            let numbers = std::iter::once(row.time_s).chain(vectors.iter().flat_map(|v| v.to_array()));
-            writer.write_record(numbers.map(|n| n.to_string())).map_err(failed)?;
-        }
-        writer.flush().map_err(|cause| SceneError::Io { path: path.into(), cause })
+    pub fn write(&mut self, row: &Row) -> Result<(), SceneError> {
+        let vectors =
+            [row.tool.position, row.tool.velocity, row.raw.force, row.filtered.force, row.sent.force];
+        let numbers = std::iter::once(row.time_s).chain(vectors.iter().flat_map(|v| v.to_array()));
+        let written = self.csv.write_record(numbers.map(|n| n.to_string()));
+        written.map_err(|cause| SceneError::Io { path: self.path.clone(), cause: cause.into() })
+    }
+
+    /// Hands everything to the system.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn flush(&mut self) -> Result<(), SceneError> {
+        self.csv.flush().map_err(|cause| SceneError::Io { path: self.path.clone(), cause })
     }
 }

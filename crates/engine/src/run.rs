@@ -2,12 +2,13 @@
 
 use crate::{
     Drive, FluidPace, FluidReport, Recording, Scene, SceneError, ServoReport, Session, SessionOptions,
-    TickTimes, open_device,
+    TickTimes, TickWriter, open_device,
 };
 use hapflow_fluid::ParticleView;
 use hapflow_haptics::FaultSet;
 use hapflow_realtime::{Clock, Grant, RealClock, RealtimeStatus, lock_memory, process_cpu_s, unlock_memory};
 use std::ops::ControlFlow;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -33,6 +34,8 @@ pub struct RunOptions<'a> {
     pub threads: usize,
     /// Times at which the particles are kept, s, in order.
     pub pictures_at: &'a [f64],
+    /// A file to which every tick is written as it comes: see [`TickWriter`].
+    pub record: Option<&'a Path>,
     /// Called now and then; `Break` ends the run early.
     pub progress: &'a mut dyn FnMut(Progress<'_>) -> ControlFlow<()>,
 }
@@ -91,7 +94,7 @@ const TELL_EVERY: u64 = 20;
 /// published one whole frame after its tool path ended, as a real machine would: no free look ahead.
 ///
 /// # Errors
-/// What [`Session::open`] refuses.
+/// What [`Session::open`] refuses, or a recording that cannot be written.
 pub fn virtual_clock(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, SceneError> {
     let session_options = SessionOptions { threads: options.threads, ..SessionOptions::hosted() };
     let mut device = open_device(scene)?;
@@ -99,7 +102,7 @@ pub fn virtual_clock(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, 
     let (Some(mut servo), Some(mut fluid)) = (session.take_servo(), session.take_fluid()) else {
         return Err(SceneError::Refused("the session's halves are taken".into()));
     };
-    let mut run = Run::begin(scene);
+    let mut run = Run::begin(scene, options.record)?;
     let mut frames = 0_u64;
     let mut pictures = options.pictures_at.iter().peekable();
     let ticks = (scene.run.duration / TICK_S).round() as u64;
@@ -116,7 +119,7 @@ pub fn virtual_clock(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, 
         let wrench = servo.tick(&state, time_s, TICK_S);
         run.outcome.timing.ticks.add(before.elapsed().as_nanos() as u64);
         device.write(wrench, TICK_S)?;
-        run.record(servo.newest());
+        run.record(servo.newest())?;
         if pictures.next_if(|at| **at <= time_s).is_some() {
             let mut particles = ParticleView::default();
             fluid.snapshot(&mut particles);
@@ -127,7 +130,7 @@ pub fn virtual_clock(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, 
         }
     }
     device.close();
-    Ok(run.end(*fluid.newest()))
+    run.end(*fluid.newest())
 }
 
 /// When frame `k` ends, s.
@@ -138,7 +141,7 @@ fn frame_end(k: u64, scene: &Scene) -> f64 {
 /// Runs `scene` in real time: a servo thread at 1 kHz, a fluid thread, and main that records.
 ///
 /// # Errors
-/// What [`Session::open`] refuses.
+/// What [`Session::open`] refuses, or a recording that cannot be written.
 pub fn real_time(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, SceneError> {
     let clock = Arc::new(RealClock::new());
     // A page that is fetched from disc in a tick makes it late.
@@ -155,13 +158,13 @@ pub fn real_time(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, Scen
     let Some(mut tape) = session.take_tape(0) else {
         return Err(SceneError::Refused("the session has no tape".into()));
     };
-    let mut run = Run::begin(scene);
+    let mut run = Run::begin(scene, options.record)?;
     let mut pictures = options.pictures_at.iter().peekable();
     let mut answered = 0;
     loop {
         std::thread::sleep(Duration::from_millis(20));
         while let Some(report) = tape.pop() {
-            run.record(&report);
+            run.record(&report)?;
         }
         let newest = session.report();
         if pictures.next_if(|at| **at <= newest.time_s).is_some() {
@@ -179,11 +182,11 @@ pub fn real_time(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, Scen
     // Refused or not, nothing is locked any more.
     let _ = unlock_memory();
     while let Some(report) = tape.pop() {
-        run.record(&report);
+        run.record(&report)?;
     }
     run.outcome.timing.ticks = ticks;
     run.outcome.realtime = Some((status, pace));
-    Ok(run.end(fluid))
+    run.end(fluid)
 }
 
 /// A run under way.
@@ -192,11 +195,12 @@ struct Run {
     duration_s: f64,
     wall: Instant,
     cpu_s: f64,
+    file: Option<TickWriter>,
 }
 
 impl Run {
-    fn begin(scene: &Scene) -> Self {
-        Self {
+    fn begin(scene: &Scene, record: Option<&Path>) -> Result<Self, SceneError> {
+        Ok(Self {
             outcome: Outcome {
                 recording: Recording::default(),
                 fluid: FluidReport::default(),
@@ -208,12 +212,14 @@ impl Run {
             duration_s: scene.run.duration,
             wall: Instant::now(),
             cpu_s: process_cpu_s(),
-        }
+            file: record.map(TickWriter::create).transpose()?,
+        })
     }
 
-    fn record(&mut self, report: &ServoReport) {
+    fn record(&mut self, report: &ServoReport) -> Result<(), SceneError> {
         self.outcome.faults |= report.faults;
         self.outcome.recording.rows.push(*report);
+        self.file.as_mut().map_or(Ok(()), |file| file.write(report))
     }
 
     fn take_picture(&mut self, session: &Session, answered: u64, servo: ServoReport) -> u64 {
@@ -232,12 +238,15 @@ impl Run {
         told(Progress { time_s: servo.time_s, duration_s: self.duration_s, servo, fluid }).is_break()
     }
 
-    fn end(mut self, fluid: FluidReport) -> Outcome {
+    fn end(mut self, fluid: FluidReport) -> Result<Outcome, SceneError> {
+        if let Some(file) = &mut self.file {
+            file.flush()?;
+        }
         let timing = &mut self.outcome.timing;
         timing.simulated_s = self.outcome.recording.rows.last().map_or(0.0, |r| r.time_s + TICK_S);
         timing.wall_s = self.wall.elapsed().as_secs_f64();
         timing.cpu_s = process_cpu_s() - self.cpu_s;
         self.outcome.fluid = fluid;
-        self.outcome
+        Ok(self.outcome)
     }
 }

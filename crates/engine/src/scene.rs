@@ -29,6 +29,15 @@ pub enum DeviceKind {
     Null,
 }
 
+/// Where the origin of a recorded motion is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MotionOrigin {
+    /// Where the tool starts; its axes are the device's.
+    Tool,
+    /// The scene's, with its axes, as in a recording.
+    Scene,
+}
+
 /// How a scene is run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunSettings {
@@ -46,6 +55,8 @@ pub struct RunSettings {
     pub device: DeviceKind,
     /// Motion of the replay device: a shipped name or a CSV file.
     pub motion: String,
+    /// Where its origin is.
+    pub motion_origin: MotionOrigin,
 }
 
 /// Shape of a tool.
@@ -204,6 +215,7 @@ impl Default for Scene {
                 backend: BackendKind::Cpu,
                 device: DeviceKind::Hand,
                 motion: "tremor".into(),
+                motion_origin: MotionOrigin::Tool,
             },
             fluid: FluidSettings::default(),
             bounds: Aabb { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) },

@@ -3,7 +3,8 @@
 use crate::fluid_unit::{FluidReport, FluidUnit};
 use crate::force_limit::ForceLimit;
 use crate::obstacles::{ObstacleMover, Obstacles, obstacle_poses};
-use crate::scene::{BackendKind, DeviceKind, Scene, ToolSettings};
+use crate::recorder::{Recorded, Recorder, Tape, make_files};
+use crate::scene::{BackendKind, DeviceKind, MotionOrigin, Scene, ToolSettings};
 use crate::servo::{ServoReport, ServoSettings, ServoUnit};
 use crate::threads::{FluidPace, FluidThread, ServoPace, ServoThread};
 use crate::tick_times::TickTimes;
@@ -43,7 +44,8 @@ pub struct SessionOptions {
     /// The clock of owned threads. An owned fluid under a host's servo keeps the servo's time instead: its
     /// ticks say what time it is.
     pub clock: Arc<dyn Clock>,
-    /// Ticks that a recording may fall behind; 0 records nothing. See [`Session::take_tape`].
+    /// Ticks that a recording may fall behind; with 0 nothing can be recorded. See [`Session::record`] and
+    /// [`Session::take_tape`].
     pub tape: usize,
 }
 
@@ -209,7 +211,7 @@ struct ToolEnds {
     report: LatestReader<ServoReport>,
     /// Where the solids are felt.
     touching: Option<LatestReader<Touching>>,
-    tape: Option<RingConsumer<ServoReport>>,
+    tape: Option<Tape>,
 }
 
 /// A session. Thread: main.
@@ -221,6 +223,7 @@ pub struct Session {
     fluid: Option<FluidUnit>,
     mover: Option<ObstacleMover>,
     owned: Owned,
+    recorder: Option<Recorder>,
 }
 
 impl std::fmt::Debug for Session {
@@ -276,7 +279,7 @@ impl Session {
             newest: FluidReport::default(),
         };
         let (fluid, mover, owned) = (Some(fluid), Some(mover), Owned::default());
-        let mut session = Self { shared, control, tools, fluid_report, fluid, mover, owned };
+        let mut session = Self { shared, control, tools, fluid_report, fluid, mover, owned, recorder: None };
         session.start(options)?;
         Ok(session)
     }
@@ -350,6 +353,38 @@ impl Session {
     /// Every tick's report of tool `tool` (from 0) in order, once, if the session was opened with a tape.
     pub fn take_tape(&mut self, tool: usize) -> Option<RingConsumer<ServoReport>> {
         self.tools.get_mut(tool)?.tape.take()
+    }
+
+    /// Writes every tick of every tool to a file from now on, in whatever drive: see [`TickWriter`](crate::TickWriter).
+    /// `path` is the first tool's file; any other's has its number before the extension. A thread of its own writes;
+    /// no servo waits for it.
+    ///
+    /// # Errors
+    /// A file that cannot be made, a recording that is under way, or a session without a tape.
+    pub fn record(&mut self, path: &Path) -> Result<(), SceneError> {
+        if self.recorder.is_some() {
+            return Err(SceneError::Recording("one is under way: stop it first"));
+        }
+        if self.tools.iter().any(|t| t.tape.is_none()) {
+            return Err(SceneError::Recording("the session was opened without a tape, or it was taken"));
+        }
+        let files = make_files(path, self.tools.len())?;
+        let tapes = self.tools.iter_mut().filter_map(|t| t.tape.take()).collect();
+        self.recorder = Some(Recorder::start(tapes, files)?);
+        Ok(())
+    }
+
+    /// Ends the recording with the newest tick, and says what it came to.
+    ///
+    /// # Errors
+    /// No recording, or one that could not be written to its end.
+    pub fn stop_recording(&mut self) -> Result<Recorded, SceneError> {
+        let recorder = self.recorder.take().ok_or(SceneError::Recording("there is none to stop"))?;
+        let (tapes, result) = recorder.stop();
+        for (tool, tape) in self.tools.iter_mut().zip(tapes) {
+            tool.tape = Some(tape);
+        }
+        result
     }
 
     /// What any thread may do with the session.
@@ -440,13 +475,15 @@ impl Session {
         !self.owned.servos.is_empty() && self.owned.servos.iter().all(|s| !s.is_finished())
     }
 
-    /// Stops owned threads, the servos first, with zero force, and says how the first of them and the fluid kept
+    /// Stops owned threads, the servos first, with zero force, and a recording; says how the first of them and the fluid kept
     /// time.
     pub fn close(&mut self) -> (TickTimes, FluidPace) {
         let mut ticks = self.owned.servos.drain(..).map(|mut s| s.stop());
         let first = ticks.next().unwrap_or_default();
         ticks.for_each(drop);
         let pace = self.owned.fluid.take().map(|mut f| f.stop()).unwrap_or_default();
+        // Who asks for it by `stop_recording` gets its result; here nobody does.
+        let _ = self.stop_recording();
         (first, pace)
     }
 }
@@ -535,10 +572,10 @@ pub fn open_device(scene: &Scene) -> Result<Box<dyn HapticDevice>, SceneError> {
     Ok(match scene.run.device {
         DeviceKind::Null => Box::new(NullDevice::new(start)),
         DeviceKind::Replay => {
-            let name = &scene.run.motion;
-            let motion = match Motion::builtin(name) {
-                Some(motion) => motion,
-                None => Motion::load(Path::new(name))?,
+            let motion = motion(&scene.run.motion)?;
+            let (motion, start) = match scene.run.motion_origin {
+                MotionOrigin::Tool => (motion, start),
+                MotionOrigin::Scene => (motion.map(place)?, DVec3::ZERO),
             };
             Box::new(Replay::new(motion, start, AtEnd::Hold)?)
         }
@@ -548,6 +585,14 @@ pub fn open_device(scene: &Scene) -> Result<Box<dyn HapticDevice>, SceneError> {
             Box::new(SimulatedHand::new(scene.hand, script)?)
         }
     })
+}
+
+/// The shipped motion of that name, or that of a file.
+fn motion(name: &str) -> Result<Motion, SceneError> {
+    match Motion::builtin(name) {
+        Some(motion) => Ok(motion),
+        None => Ok(Motion::load(Path::new(name))?),
+    }
 }
 
 /// A script's segment, turned from the scene's frame into the device's.

@@ -3,7 +3,7 @@
 //! Scene files, `--set`, `[[change]]`, the C ABI and the README's table all read it. Settings of a source are
 //! addressed by its name: `source.tap.speed`; those of an obstacle likewise.
 
-use crate::scene::{BackendKind, DeviceKind, Obstacle, Scene, ToolSettings, ToolShape};
+use crate::scene::{BackendKind, DeviceKind, MotionOrigin, Obstacle, Scene, ToolSettings, ToolShape};
 use crate::{SceneError, Value};
 use hapflow_fluid::{InteractionMode, Solver, Source};
 use hapflow_haptics::{CouplingKind, FilterSpec};
@@ -222,13 +222,14 @@ pub const SETTINGS: &[Setting<Scene>] = &[
         unit: "",
         kind: Kind::Text,
         live: FIXED,
-        about: "Motion of the replay device: a shipped name or a CSV file (time_s,x_m,y_m,z_m), relative to the tool's start.",
+        about: "Motion of the replay device: a shipped name or a CSV file (time_s,x_m,y_m,z_m).",
         get: |s| Value::Text(s.run.motion.clone()),
         set: |s, v| {
             s.run.motion = v.text().to_string();
             Ok(())
         },
     },
+    choice!("run.motion_origin", FIXED, run.motion_origin, ["tool" => MotionOrigin::Tool, "scene" => MotionOrigin::Scene], "Where that motion begins: at the tool's start, in the device's axes, or where it says in the scene, as a recording has it."),
     choice!("fluid.solver", LIVE, fluid.solver, ["wcsph" => Solver::Wcsph, "muller" => Solver::Muller], "`wcsph`: stiff, with density diffusion and analytic walls; `muller`: the thesis's."),
     choice!("fluid.mode", LIVE, fluid.mode, ["full" => InteractionMode::Full, "none" => InteractionMode::None, "mixed" => InteractionMode::Mixed], "Which particles act on which: all; none (gravity and contacts only); or in every other sub-step."),
     number!(
