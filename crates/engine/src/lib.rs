@@ -22,6 +22,7 @@ mod recorder;
 mod recording;
 pub mod run;
 mod scene;
+mod scene_builder;
 mod scene_file;
 mod servo;
 mod session;
@@ -43,7 +44,7 @@ pub use scene::{
     BackendKind, Change, DeviceKind, MAX_OBSTACLES, MAX_TOOLS, MappingSettings, MotionOrigin, Obstacle,
     RunSettings, Scene, ToolSettings, ToolShape,
 };
-pub use scene_file::parse;
+pub use scene_file::{parse, write};
 pub use servo::{ServoReport, ServoUnit};
 pub use session::{Control, Drive, Session, SessionOptions, open_device};
 pub use threads::{FluidPace, SERVO_PRIORITY, ServoPace};

@@ -161,6 +161,16 @@ pub struct Change {
     pub settings: Vec<(String, Value)>,
 }
 
+impl Change {
+    /// The `settings` (paths and values) from `at_s` seconds on: in the order of their paths, of two for one the last.
+    pub fn new(at_s: f64, mut settings: Vec<(String, Value)>) -> Self {
+        settings.reverse();
+        settings.sort_by(|a, b| a.0.cmp(&b.0));
+        settings.dedup_by(|later, kept| later.0 == kept.0);
+        Self { at_s, settings }
+    }
+}
+
 /// Everything that a session is made of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {

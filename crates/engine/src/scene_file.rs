@@ -1,6 +1,7 @@
-//! Reading a scene from TOML. Every error names the file, the line, the field, the value and what it must be.
+//! Reading a scene from TOML, and writing it. Every error names the file, the line, the field, the value and what it must be.
 
 use crate::scene::{Change, Scene};
+use crate::scene_builder::{FARTHEST_M, LATEST_S};
 use crate::settings::{self, Named};
 use crate::{SceneError, Value};
 use glam::DVec3;
@@ -73,7 +74,7 @@ impl Reader<'_> {
         match (key, item.get_ref()) {
             ("name", _) => scene.name = self.text_of(key, item)?,
             ("about", _) => scene.about = self.text_of(key, item)?,
-            ("ground", _) => scene.ground = Some(self.number(key, item, -100.0, 100.0)?),
+            ("ground", _) => scene.ground = Some(self.number(key, item, -FARTHEST_M, FARTHEST_M)?),
             ("bounds", DeValue::Table(t)) => scene.bounds = self.aabb(key, item, t)?,
             ("container", DeValue::Table(t)) => {
                 scene.container = Some(OpenBox { inner: self.aabb(key, item, t)? });
@@ -157,8 +158,8 @@ impl Reader<'_> {
         let mut found = [None; 2];
         for (name, value) in table {
             match name.get_ref().as_ref() {
-                "min" => found[0] = Some(self.vector("min", value, 100.0)?),
-                "max" => found[1] = Some(self.vector("max", value, 100.0)?),
+                "min" => found[0] = Some(self.vector("min", value, FARTHEST_M)?),
+                "max" => found[1] = Some(self.vector("max", value, FARTHEST_M)?),
                 other => {
                     return self.wrong(value, &format!("{key}.{other} is unknown: a box has min and max"));
                 }
@@ -221,13 +222,14 @@ impl Reader<'_> {
         let Some(at) = table.get("at_s") else {
             return self.wrong(item, "change needs at_s, the time in seconds");
         };
-        let mut change = Change { at_s: self.number("at_s", at, 0.0, 3600.0)?, settings: Vec::new() };
+        let at_s = self.number("at_s", at, 0.0, LATEST_S)?;
+        let mut settings = Vec::new();
         for (name, value) in table {
             if name.get_ref() != "at_s" {
-                self.flatten(scene, name.get_ref(), value, &mut change.settings)?;
+                self.flatten(scene, name.get_ref(), value, &mut settings)?;
             }
         }
-        Ok(change)
+        Ok(Change::new(at_s, settings))
     }
 
     /// Turns nested tables into paths, and checks each setting where it stands.
@@ -341,6 +343,10 @@ fn unknown_section(key: &str) -> String {
         format!("\"{key}\" is unknown (nearest: \"{nearest}\"); a scene has {}", known.join(", "))
     }
 }
+
+mod writer;
+
+pub use writer::write;
 
 #[cfg(test)]
 mod tests;
