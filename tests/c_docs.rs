@@ -321,6 +321,34 @@ const MISTAKES: &[Mistake] = &[
         make: |api, session| ((api.obstacle_move)(session, 0, &[0.0; 3], &[0.0, 0.0, 0.0, 1.0]), None),
     },
     Mistake {
+        what: "a force limit above the present one",
+        make: |api, session| ((api.session_limit_force)(session, 4.5, 0.1), None),
+    },
+    Mistake {
+        what: "a limit of the gate that is raised while the session runs",
+        make: |api, session| set_text(api, session, c"gate.max_force", c"4.5"),
+    },
+    Mistake {
+        what: "contacts of a size that no version has",
+        make: |api, session| ((api.session_contacts)(session, 0, null_mut(), 87, 0, &mut 0), None),
+    },
+    Mistake {
+        what: "a recording in a session that was made without",
+        make: |api, session| ((api.session_record)(session, c"run.csv".as_ptr()), None),
+    },
+    Mistake {
+        what: "a recording in a folder that there is not",
+        make: |api, _| {
+            let config = SessionConfig { record: 1, ..api.config() };
+            let session = api.try_create_with(c_support::JET, config).unwrap();
+            ((api.session_record)(session, c"/nowhere/at/all.csv".as_ptr()), None)
+        },
+    },
+    Mistake {
+        what: "a recording is ended that there is not",
+        make: |api, session| ((api.session_record_stop)(session, &mut 0, &mut 0), None),
+    },
+    Mistake {
         what: "a setting outside its range",
         make: |api, session| set_text(api, session, c"fluid.viscosity", c"-1"),
     },

@@ -220,6 +220,8 @@ impl Fuzz {
             9..=12 => config.fluid_drive = DRIVE_OWNED,
             13 => config.servo_drive = 2,
             14 => config.device_count = 1,
+            16 => config.record = 2,
+            17 => config.reserved = 1,
             15 => (config.servo_drive, config.device_count) = (DRIVE_OWNED, 1),
             _ => {}
         }
@@ -294,7 +296,7 @@ impl Fuzz {
         let api = self.api;
         self.memory.fill(GUARD);
         let which = self.random.below(8);
-        let right = [88, 136, 280, 32, 40, 56, 72, 80][which as usize];
+        let right = [96, 136, 280, 32, 40, 56, 72, 80][which as usize];
         let size = self.struct_size(right);
         match which {
             0 => (api.session_config_init)(self.place(), size),
@@ -348,6 +350,10 @@ impl Fuzz {
             8 => self.buffered(1, |to, n, length| (api.last_error)(to.cast(), n, length)),
             9 => self.buffered(1, |to, n, length| (api.build_info)(to.cast(), n, length)),
             10 => self.buffered(12, |to, n, length| (api.fluid_particles)(session, to.cast(), n, length)),
+            11 if self.random.below(4) == 0 => {
+                (api.session_limit_force)(session, self.number(), 0.1 * self.number())
+            }
+            11 if self.random.below(4) == 0 => (api.session_record_stop)(session, self.place(), self.place()),
             11 => (api.session_emergency_stop)(session),
             12 | 13 => (api.session_clear_faults)(session),
             14 => self.init(),
@@ -367,6 +373,16 @@ impl Fuzz {
                 (api.obstacle_move)(session, index, &[x, 0.0, 0.0], &orientation)
             }
             23 if self.random.below(3) == 0 => (api.session_poll)(session),
+            23 if self.random.below(4) == 0 => {
+                let tool = self.random.below(2) as u32;
+                (api.session_proxy)(session, tool, self.place(), self.place())
+            }
+            23 if self.random.below(4) == 0 => {
+                let (tool, size) = (self.random.below(2) as u32, self.struct_size(88));
+                self.buffered(88, |to, n, length| {
+                    (api.session_contacts)(session, tool, to.cast(), size, n, length)
+                })
+            }
             23 if self.random.below(2) == 0 => (api.obstacle_count)(session, self.place()),
             23 => (api.obstacle_publish)(session),
             24..28 => self.use_device(),
@@ -378,7 +394,7 @@ impl Fuzz {
         for n in 0..calls {
             let result = self.call();
             // A panic is caught, but is a defect all the same.
-            let known = (code::DEVICE..=code::MORE).contains(&result);
+            let known = (code::RECORDING..=code::MORE).contains(&result);
             assert!(known && ![code::PANIC, code::FAULTED].contains(&result), "call {n}: {result}");
             *self.results.entry(result).or_default() += 1;
         }
@@ -400,8 +416,9 @@ fn twenty_thousand_random_calls_do_no_harm() {
             code::NOT_FOUND,
             code::FAULTED,
             code::DEVICE,
+            code::FILE,
         ];
-        let missing: Vec<_> = (code::DEVICE..=code::MORE)
+        let missing: Vec<_> = (code::RECORDING..=code::MORE)
             .filter(|r| !rare.contains(r) && !fuzz.results.contains_key(r))
             .collect();
         assert!(missing.is_empty(), "seed {seed}: never came: {missing:?} of {:?}", fuzz.results);

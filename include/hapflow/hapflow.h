@@ -43,5 +43,7 @@
 #include <hapflow/report.h>
 #include <hapflow/log.h>
 #include <hapflow/extension.h>
+#include <hapflow/contact.h>
+#include <hapflow/recording.h>
 
 #endif

@@ -38,6 +38,8 @@ enum {
     HAPFLOW_ERROR_INDEX = -20, /* an index that is not below the count */
     HAPFLOW_ERROR_DRIVE = -21, /* the session's own thread does that: tick the servo, or step the fluid */
     HAPFLOW_ERROR_DEVICE = -22, /* the device cannot be opened, or does not answer any more */
+    HAPFLOW_ERROR_FILE = -23, /* a file cannot be written; hapflow_last_error has path and cause */
+    HAPFLOW_ERROR_RECORDING = -24, /* there is a recording, there is none, or the session was made without */
 };
 
 /* A sentence on a result, in English. [any] Never null; lasts as long as the process; any number may be asked. */

@@ -65,9 +65,11 @@ typedef struct hapflow_session_config {
     const hapflow_device* devices;
     hapflow_log_function log; /* what is told of the session goes there; or null */
     void* log_user; /* handed to it, and not looked at */
+    uint32_t record; /* 1: hapflow_session_record may be called; 0: then nothing is kept ready for it */
+    uint32_t reserved; /* 0 */
 } hapflow_session_config;
 #if UINTPTR_MAX > 0xffffffffu
-HAPFLOW_ASSERT_SIZE(hapflow_session_config, 88);
+HAPFLOW_ASSERT_SIZE(hapflow_session_config, 96);
 #endif
 
 /* Fills `config` with the defaults, for a struct of `size` bytes: sizeof *config. [any] Errors: NULL, STRUCT. */
@@ -90,6 +92,13 @@ HAPFLOW_API hapflow_result hapflow_session_emergency_stop(hapflow_session sessio
 /* Takes back every fault; the force then comes up slowly, as at a start. [any] A cause that is still there raises its
  * fault again. Only a person who has seen that the device is safe should lead to this call. Errors: HANDLE. */
 HAPFLOW_API hapflow_result hapflow_session_clear_faults(hapflow_session session);
+
+/* From the next tick on, no force on any tool is larger than `max_force` (N), and no torque than `max_torque` (N m), for
+ * the rest of the session. [any] Such a limit can be lowered and never raised; it begins as the scene's gate.max_force
+ * and gate.max_torque, and those settings cannot be raised above it either. A force that is up shrinks at once. Of two
+ * calls at once the lower of each counts.
+ * Errors: HANDLE, NOT_FINITE, VALUE (negative, or above the present limit); both then stay as they were. */
+HAPFLOW_API hapflow_result hapflow_session_limit_force(hapflow_session session, double max_force, double max_torque);
 
 HAPFLOW_END_DECLS
 

@@ -28,6 +28,8 @@ pub struct SessionConfig {
     pub devices: *const Device,
     pub log: Option<LogFunction>,
     pub log_user: *mut c_void,
+    pub record: u32,
+    pub reserved: u32,
 }
 
 /// `hapflow_log_function`: level, text, user.
@@ -160,6 +162,17 @@ pub struct SettingInfo {
     pub usual: *const c_char,
 }
 
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Contact {
+    pub solid: u32,
+    pub index: u32,
+    pub depth: f64,
+    pub point: [f64; 3],
+    pub normal: [f64; 3],
+    pub force: [f64; 3],
+}
+
 macro_rules! functions {
     ($($name:ident: fn($($arg:ty),*) $(-> $out:ty)?;)+) => {
         /// The library, loaded. The functions are declared safe: a test gives them wrong values on purpose, but
@@ -217,6 +230,11 @@ functions! {
     session_setting_info: fn(Session, u32, *mut SettingInfo) -> i32;
     session_emergency_stop: fn(Session) -> i32;
     session_clear_faults: fn(Session) -> i32;
+    session_limit_force: fn(Session, f64, f64) -> i32;
+    session_contacts: fn(Session, u32, *mut Contact, u32, usize, *mut usize) -> i32;
+    session_proxy: fn(Session, u32, *mut [f64; 3], *mut [f64; 4]) -> i32;
+    session_record: fn(Session, *const c_char) -> i32;
+    session_record_stop: fn(Session, *mut u64, *mut u64) -> i32;
     session_report: fn(Session, *mut Report) -> i32;
     session_report_of: fn(Session, u32, *mut Report) -> i32;
     session_tool_count: fn(Session, *mut u32) -> i32;
@@ -335,6 +353,26 @@ impl Api {
         let mut report = made(self.report_init);
         assert_eq!((self.session_report_of)(session, tool, &mut report), code::OK);
         report
+    }
+
+    /// What a tool touches, by the two calls that the header asks for.
+    pub fn contacts(&self, session: Session, tool: u32) -> Vec<Contact> {
+        let (size, mut count) = (size_of::<Contact>() as u32, 0);
+        assert_eq!(
+            (self.session_contacts)(session, tool, std::ptr::null_mut(), size, 0, &mut count),
+            code::OK
+        );
+        let mut contacts = vec![Contact::default(); count];
+        let to = contacts.as_mut_ptr();
+        assert_eq!((self.session_contacts)(session, tool, to, size, count, &mut count), code::OK);
+        contacts
+    }
+
+    /// Position and orientation of a tool's proxy.
+    pub fn proxy(&self, session: Session, tool: u32) -> ([f64; 3], [f64; 4]) {
+        let (mut position, mut orientation) = ([7.0; 3], [7.0; 4]);
+        assert_eq!((self.session_proxy)(session, tool, &mut position, &mut orientation), code::OK);
+        (position, orientation)
     }
 
     /// The last error's message, by the two calls that the header asks for.

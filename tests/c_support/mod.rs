@@ -7,8 +7,8 @@ pub mod header;
 mod random;
 
 pub use api::{
-    Api, Device, DeviceConfig, DeviceInfo, Report, SceneInfo, ServoPace, Session, SessionConfig, SettingInfo,
-    ToolState, Wrench, made, shown,
+    Api, Contact, Device, DeviceConfig, DeviceInfo, Report, SceneInfo, ServoPace, Session, SessionConfig,
+    SettingInfo, ToolState, Wrench, made, shown,
 };
 pub use build::{Variant, compile, library, root, scratch};
 pub use random::Random;
@@ -42,6 +42,8 @@ pub mod code {
     pub const INDEX: i32 = -20;
     pub const DRIVE: i32 = -21;
     pub const DEVICE: i32 = -22;
+    pub const FILE: i32 = -23;
+    pub const RECORDING: i32 = -24;
 }
 
 /// `hapflow_session_config.fluid_drive` or `.servo_drive`: the session drives that half itself.

@@ -31,6 +31,12 @@ pub unsafe trait Plain: Copy {}
 // SAFETY: as the trait asks.
 unsafe impl<const N: usize> Plain for [f64; N] {}
 
+/// A struct that stands in arrays of the caller's, who says its size with them.
+pub trait Element: Copy {
+    /// Its size when it was first published.
+    const FIRST_SIZE: usize;
+}
+
 /// A struct that is read.
 #[repr(transparent)]
 #[derive(Clone, Copy)]
@@ -277,6 +283,28 @@ impl<T: Copy> Buffer<T> {
     }
 }
 
+impl<T: Element> Buffer<T> {
+    /// The same for structs that are `size` bytes each with the caller. What of them is not known here becomes zero.
+    pub fn enumerate_sized(self, size: u32, capacity: usize, count: Out<usize>, values: &[T]) -> Outcome {
+        self.check(capacity, count)?;
+        let size = size as usize;
+        if !(T::FIRST_SIZE..=LARGEST).contains(&size) {
+            return Err(Code::ERROR_STRUCT);
+        }
+        let known = size.min(size_of::<T>());
+        for (k, value) in values.iter().take(capacity).enumerate() {
+            // SAFETY: not null, hence `capacity` structs of `size` bytes, and k is below that.
+            unsafe {
+                let to = self.0.cast::<u8>().add(k * size);
+                to.write_bytes(0, size);
+                (&raw const *value).cast::<u8>().copy_to_nonoverlapping(to, known);
+            }
+        }
+        count.put(values.len())?;
+        Ok(told(capacity, values.len()))
+    }
+}
+
 impl Buffer<c_char> {
     /// The same for a text: the capacity counts the NUL, the length does not. What is cut off is whole letters.
     pub fn enumerate_text(self, capacity: usize, length: Out<usize>, text: &str) -> Outcome {
@@ -348,6 +376,29 @@ mod tests {
         let mut memory = [5_u32; 5];
         Out(memory.as_mut_ptr().cast::<Grown>()).init(&DEFAULTS, 16).unwrap();
         assert_eq!(memory, [16, 1, 2, 0, 5]);
+    }
+
+    impl Element for Grown {
+        const FIRST_SIZE: usize = 8;
+    }
+
+    #[test]
+    fn elements_are_as_far_apart_as_the_caller_says() {
+        let values = [Grown { size: 1, a: 2, b: 3 }, Grown { size: 4, a: 5, b: 6 }];
+        let (mut memory, mut count) = ([9_u32; 9], 0);
+        let (to, out) = (Buffer(memory.as_mut_ptr().cast::<Grown>()), Out(&raw mut count));
+        assert_eq!(to.enumerate_sized(8, 2, out, &values), Ok(Code::OK));
+        assert_eq!((memory[..5].to_vec(), count), (vec![1, 2, 4, 5, 9], 2));
+        assert_eq!(to.enumerate_sized(16, 2, out, &values), Ok(Code::OK));
+        assert_eq!(memory, [1, 2, 3, 0, 4, 5, 6, 0, 9]);
+        memory = [9; 9];
+        let to = Buffer(memory.as_mut_ptr().cast::<Grown>());
+        assert_eq!(to.enumerate_sized(12, 1, out, &values), Ok(Code::REMARK_MORE));
+        assert_eq!((memory[..4].to_vec(), count), (vec![1, 2, 3, 9], 2));
+        for size in [0, 7, 4097, u32::MAX] {
+            assert_eq!(to.enumerate_sized(size, 2, out, &values), Err(Code::ERROR_STRUCT));
+        }
+        assert_eq!(Buffer::<Grown>(std::ptr::null_mut()).enumerate_sized(12, 0, out, &values), Ok(Code::OK));
     }
 
     #[test]

@@ -52,6 +52,8 @@ codes! {
     ERROR_INDEX = HAPFLOW_ERROR_INDEX, c"an index that is not below the count";
     ERROR_DRIVE = HAPFLOW_ERROR_DRIVE, c"the session's own thread does that: tick the servo, or step the fluid";
     ERROR_DEVICE = HAPFLOW_ERROR_DEVICE, c"the device cannot be opened, or does not answer any more";
+    ERROR_FILE = HAPFLOW_ERROR_FILE, c"a file cannot be written";
+    ERROR_RECORDING = HAPFLOW_ERROR_RECORDING, c"there is a recording, there is none, or the session was made without";
 }
 
 impl Code {
@@ -104,6 +106,8 @@ impl From<SceneError> for Failure {
             SceneError::UnknownSetting { .. } => Code::ERROR_SETTING,
             SceneError::Device(error) => of_device(error),
             SceneError::NotLive(_) => Code::ERROR_FIXED,
+            SceneError::Io { .. } => Code::ERROR_FILE,
+            SceneError::Recording(_) => Code::ERROR_RECORDING,
             SceneError::BadValue { .. }
             | SceneError::Fluid(_)
             | SceneError::Range(_)

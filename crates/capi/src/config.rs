@@ -13,6 +13,8 @@ use hapflow_engine::{Drive, Scene};
 use std::ffi::c_void;
 
 const KIND: u32 = c::HAPFLOW_KIND_SESSION_CONFIG;
+/// Ticks that a recording may fall behind: eight seconds.
+const TAPE: usize = 8192;
 /// Most worker threads: more is a mistake, and might not come up.
 const MOST_THREADS: u32 = 1024;
 
@@ -34,6 +36,8 @@ pub struct SessionConfig {
     devices: In<DeviceHandle>,
     log: LogFunction,
     log_user: LogUser,
+    record: u32,
+    reserved: u32,
 }
 
 as_in_header!(
@@ -52,6 +56,8 @@ as_in_header!(
         devices,
         log,
         log_user,
+        record,
+        reserved,
     }
 );
 
@@ -78,6 +84,8 @@ impl SessionConfig {
         devices: In::NULL,
         log: LogFunction::NULL,
         log_user: LogUser::NULL,
+        record: 0,
+        reserved: 0,
     };
 
     /// Refuses what this version does not know.
@@ -85,7 +93,7 @@ impl SessionConfig {
         if self.kind != KIND {
             return Err(Code::ERROR_STRUCT.into());
         }
-        if !self.next.is_null() {
+        if !self.next.is_null() || self.reserved != 0 {
             return Err(Code::ERROR_UNSUPPORTED.into());
         }
         if self.threads > MOST_THREADS {
@@ -103,6 +111,18 @@ impl SessionConfig {
     /// Who ticks the servo.
     pub fn servo_drive(&self) -> Result<Drive, Failure> {
         drive("servo_drive", self.servo_drive)
+    }
+
+    /// Ticks that a recording may fall behind; 0 without one.
+    pub fn tape(&self) -> Result<usize, Failure> {
+        match self.record {
+            0 => Ok(0),
+            1 => Ok(TAPE),
+            other => {
+                let text = format!("record = {other}: must be 0 or 1");
+                Err(Failure { code: Code::ERROR_UNSUPPORTED, text })
+            }
+        }
     }
 
     /// Worker threads of the fluid; 0 is all cores but one.

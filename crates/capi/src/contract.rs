@@ -9,8 +9,8 @@ use crate::code::Code;
 use crate::generated as c;
 use crate::handle::{DeviceHandle, Handle, Id};
 use crate::{
-    build_info, catalog, config, device, device_config, extension, fluid, library, log, obstacle, report,
-    servo, servo_pace, session, setting_info, tool_state,
+    build_info, catalog, config, contact, device, device_config, extension, fluid, library, log, obstacle,
+    recording, report, servo, servo_pace, session, setting_info, tool_state,
 };
 use std::ffi::{c_char, c_void};
 
@@ -47,12 +47,13 @@ same_in_c! {
 }
 
 targets! {
-    u32 = u32, usize = usize, f64 = f64, c_char = c_char,
+    u32 = u32, u64 = u64, usize = usize, f64 = f64, c_char = c_char,
     [f64; 3] = f64, [f64; 4] = f64, [f32; 3] = f32,
     Handle = c::hapflow_session, DeviceHandle = c::hapflow_device,
     device_config::DeviceConfig = c::hapflow_device_config,
     servo_pace::ServoPaceRecord = c::hapflow_servo_pace,
     config::SessionConfig = c::hapflow_session_config,
+    contact::ContactRecord = c::hapflow_contact,
     tool_state::ToolStateRecord = c::hapflow_tool_state,
     crate::wrench::WrenchRecord = c::hapflow_wrench,
     report::Report = c::hapflow_report,
@@ -114,7 +115,7 @@ macro_rules! arities {
     };
 }
 
-arities! { () (A) (A, B) (A, B, D) (A, B, D, E) (A, B, D, E, F) }
+arities! { () (A) (A, B) (A, B, D) (A, B, D, E) (A, B, D, E, F) (A, B, D, E, F, G) }
 
 /// Compiles if the two have the same arguments and result.
 const fn same_function<F: Function>(_: F, _: F::C) {}
@@ -155,6 +156,7 @@ functions! {
     session::hapflow_session_destroy(_);
     session::hapflow_session_emergency_stop(_);
     session::hapflow_session_clear_faults(_);
+    session::hapflow_session_limit_force(_, _, _);
     session::hapflow_session_set(_, _, _);
     session::hapflow_session_set_vector(_, _, _);
     session::hapflow_session_set_text(_, _, _);
@@ -179,6 +181,10 @@ functions! {
     session::hapflow_session_report_of(_, _, _);
     log::hapflow_session_poll(_);
     extension::hapflow_extension(_);
+    contact::hapflow_session_contacts(_, _, _, _, _, _);
+    contact::hapflow_session_proxy(_, _, _, _);
+    recording::hapflow_session_record(_, _);
+    recording::hapflow_session_record_stop(_, _, _);
 }
 
 #[cfg(test)]

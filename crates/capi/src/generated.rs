@@ -9,6 +9,7 @@ pub const HAPFLOW_KIND_SESSION_CONFIG: u32 = 1;
 pub const HAPFLOW_MAX_TOOLS: u32 = 8;
 pub const HAPFLOW_EXTENSION_DEVICE: &[u8; 17] = b"hapflow.device/1\0";
 pub const HAPFLOW_EXTENSION_LOG: &[u8; 14] = b"hapflow.log/1\0";
+pub const HAPFLOW_MAX_CONTACTS: u32 = 8;
 pub type hapflow_result = i32;
 pub const HAPFLOW_OK: _bindgen_ty_1 = 0;
 pub const HAPFLOW_REMARK_FORCE_HELD: _bindgen_ty_1 = 1;
@@ -37,6 +38,8 @@ pub const HAPFLOW_ERROR_FAULTED: _bindgen_ty_1 = -19;
 pub const HAPFLOW_ERROR_INDEX: _bindgen_ty_1 = -20;
 pub const HAPFLOW_ERROR_DRIVE: _bindgen_ty_1 = -21;
 pub const HAPFLOW_ERROR_DEVICE: _bindgen_ty_1 = -22;
+pub const HAPFLOW_ERROR_FILE: _bindgen_ty_1 = -23;
+pub const HAPFLOW_ERROR_RECORDING: _bindgen_ty_1 = -24;
 pub type _bindgen_ty_1 = ::core::ffi::c_int;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -293,13 +296,15 @@ pub struct hapflow_session_config {
     pub devices: *const hapflow_device,
     pub log: hapflow_log_function,
     pub log_user: *mut ::core::ffi::c_void,
+    pub record: u32,
+    pub reserved: u32,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 #[cfg(target_pointer_width = "64")]
 const _: () = {
     [
         "Size of hapflow_session_config",
-    ][::core::mem::size_of::<hapflow_session_config>() - 88usize];
+    ][::core::mem::size_of::<hapflow_session_config>() - 96usize];
     [
         "Alignment of hapflow_session_config",
     ][::core::mem::align_of::<hapflow_session_config>() - 8usize];
@@ -345,6 +350,12 @@ const _: () = {
     [
         "Offset of field: hapflow_session_config::log_user",
     ][::core::mem::offset_of!(hapflow_session_config, log_user) - 80usize];
+    [
+        "Offset of field: hapflow_session_config::record",
+    ][::core::mem::offset_of!(hapflow_session_config, record) - 88usize];
+    [
+        "Offset of field: hapflow_session_config::reserved",
+    ][::core::mem::offset_of!(hapflow_session_config, reserved) - 92usize];
 };
 pub const HAPFLOW_SETTING_NUMBER: _bindgen_ty_4 = 1;
 pub const HAPFLOW_SETTING_INTEGER: _bindgen_ty_4 = 2;
@@ -679,6 +690,46 @@ const _: () = {
         "Offset of field: hapflow_log_extension::poll",
     ][::core::mem::offset_of!(hapflow_log_extension, poll) - 8usize];
 };
+pub const HAPFLOW_SOLID_GROUND: _bindgen_ty_7 = 1;
+pub const HAPFLOW_SOLID_CONTAINER: _bindgen_ty_7 = 2;
+pub const HAPFLOW_SOLID_OBSTACLE: _bindgen_ty_7 = 3;
+pub type _bindgen_ty_7 = ::core::ffi::c_uint;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_contact {
+    pub solid: u32,
+    pub index: u32,
+    pub depth: f64,
+    pub point: [f64; 3usize],
+    pub normal: [f64; 3usize],
+    pub force: [f64; 3usize],
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    ["Size of hapflow_contact"][::core::mem::size_of::<hapflow_contact>() - 88usize];
+    [
+        "Alignment of hapflow_contact",
+    ][::core::mem::align_of::<hapflow_contact>() - 8usize];
+    [
+        "Offset of field: hapflow_contact::solid",
+    ][::core::mem::offset_of!(hapflow_contact, solid) - 0usize];
+    [
+        "Offset of field: hapflow_contact::index",
+    ][::core::mem::offset_of!(hapflow_contact, index) - 4usize];
+    [
+        "Offset of field: hapflow_contact::depth",
+    ][::core::mem::offset_of!(hapflow_contact, depth) - 8usize];
+    [
+        "Offset of field: hapflow_contact::point",
+    ][::core::mem::offset_of!(hapflow_contact, point) - 16usize];
+    [
+        "Offset of field: hapflow_contact::normal",
+    ][::core::mem::offset_of!(hapflow_contact, normal) - 40usize];
+    [
+        "Offset of field: hapflow_contact::force",
+    ][::core::mem::offset_of!(hapflow_contact, force) - 64usize];
+};
 unsafe extern "C" {
     pub fn hapflow_result_text(result: hapflow_result) -> *const ::core::ffi::c_char;
     pub fn hapflow_last_error(
@@ -750,6 +801,11 @@ unsafe extern "C" {
     pub fn hapflow_session_destroy(session: hapflow_session) -> hapflow_result;
     pub fn hapflow_session_emergency_stop(session: hapflow_session) -> hapflow_result;
     pub fn hapflow_session_clear_faults(session: hapflow_session) -> hapflow_result;
+    pub fn hapflow_session_limit_force(
+        session: hapflow_session,
+        max_force: f64,
+        max_torque: f64,
+    ) -> hapflow_result;
     pub fn hapflow_session_set(
         session: hapflow_session,
         path: *const ::core::ffi::c_char,
@@ -850,4 +906,27 @@ unsafe extern "C" {
     pub fn hapflow_extension(
         name: *const ::core::ffi::c_char,
     ) -> *const ::core::ffi::c_void;
+    pub fn hapflow_session_contacts(
+        session: hapflow_session,
+        tool: u32,
+        contacts: *mut hapflow_contact,
+        size: u32,
+        capacity: usize,
+        count: *mut usize,
+    ) -> hapflow_result;
+    pub fn hapflow_session_proxy(
+        session: hapflow_session,
+        tool: u32,
+        position: *mut f64,
+        orientation: *mut f64,
+    ) -> hapflow_result;
+    pub fn hapflow_session_record(
+        session: hapflow_session,
+        path: *const ::core::ffi::c_char,
+    ) -> hapflow_result;
+    pub fn hapflow_session_record_stop(
+        session: hapflow_session,
+        ticks: *mut u64,
+        lost: *mut u64,
+    ) -> hapflow_result;
 }

@@ -6,10 +6,11 @@
 //! |---|---|
 //! | `library` | versions, texts of results, the last error |
 //! | `session`, `servo`, `fluid`, `obstacle` | the functions of a session, by thread class |
+//! | `recording` | those of a recording |
 //! | `device` | those of a device in a loop of the host |
-//! | `config`, `device_config`, `tool_state`, `wrench`, `report`, `servo_pace`, `setting_info` | the header's structs |
 //! | `log` | what a session has to say, told to the host |
 //! | `extension`, `absent_device`, `absent_log` | optional parts, as tables; and a build without them |
+//! | `config`, `contact`, `device_config`, `tool_state`, `wrench`, `report`, `servo_pace`, `setting_info` | the header's structs |
 //! | `scene_source` | what the two configurations have in common |
 //! | `build_info`, `catalog` | what the build has; shipped scenes and devices |
 //! | `code` | results |
@@ -28,6 +29,7 @@ mod caller;
 mod catalog;
 mod code;
 mod config;
+mod contact;
 mod contract;
 #[cfg(feature = "device")]
 mod device;
@@ -51,6 +53,7 @@ mod log;
 #[path = "absent_log.rs"]
 mod log;
 mod obstacle;
+mod recording;
 mod report;
 mod scene_source;
 mod servo;

@@ -19,13 +19,13 @@ use glam::DVec3;
 use hapflow_devices::HapticDevice;
 use hapflow_engine::{Control, Drive, Scene, Session, SessionOptions, Value, open_device};
 use hapflow_fluid::ParticleView;
-use hapflow_haptics::FaultSet;
+use hapflow_haptics::{FaultSet, Touching};
 use hapflow_realtime::Faultable;
 use std::ffi::c_char;
 
 /// Main's part of a session.
 pub struct MainSide {
-    session: Session,
+    pub session: Session,
     control: Control,
     names: Names,
     paces: Paces,
@@ -69,6 +69,11 @@ impl MainSide {
         if let Some(log) = &mut self.log {
             log.poll(&mut self.session, &self.control);
         }
+    }
+
+    /// What a tool touches.
+    pub fn touching(&mut self, tool: u32) -> Result<Touching, Failure> {
+        self.session.touching_of(tool as usize).ok_or_else(|| self.no_tool(tool))
     }
 
     fn no_tool(&self, tool: u32) -> Failure {
@@ -152,6 +157,7 @@ fn open(config: &SessionConfig) -> Result<Parts, Failure> {
         fluid_drive,
         threads: config.threads(),
         devices,
+        tape: config.tape()?,
         ..SessionOptions::hosted()
     };
     let mut session = Session::open(&scene, options)?;
@@ -366,5 +372,17 @@ pub extern "C" fn hapflow_session_clear_faults(session: Handle) -> Code {
     with_any(session, |side| {
         side.control.clear_faults();
         Ok(Code::OK)
+    })
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_session_limit_force(session: Handle, max_force: f64, max_torque: f64) -> Code {
+    with_any(session, |side| {
+        if !max_force.is_finite() || !max_torque.is_finite() {
+            return Err(Code::ERROR_NOT_FINITE);
+        }
+        let limited = side.control.limit_force(max_force, max_torque);
+        limited.map(|()| Code::OK).map_err(|_| Code::ERROR_VALUE)
     })
 }

@@ -14,7 +14,7 @@
 //! K < 2000 b.
 
 use crate::{Solid, SolidKind, ToolState};
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 #[cfg(test)]
 mod tests;
@@ -62,6 +62,8 @@ pub struct Contact {
 pub struct Touching {
     /// Position of the proxy, m.
     pub proxy: DVec3,
+    /// Its orientation, unit quaternion: the tool's.
+    pub orientation: DQuat,
     /// Velocity of the proxy, m/s: that of the hand, but with a solid that it presses on.
     pub velocity: DVec3,
     contacts: [Contact; MAX_CONTACTS],
@@ -71,7 +73,8 @@ pub struct Touching {
 impl Touching {
     /// A tool that touches nothing.
     pub fn nothing(tool: &ToolState) -> Self {
-        Self { proxy: tool.position, velocity: tool.velocity, ..Self::default() }
+        let (proxy, orientation, velocity) = (tool.position, tool.orientation, tool.velocity);
+        Self { proxy, orientation, velocity, ..Self::default() }
     }
 
     /// The contacts.
@@ -124,7 +127,7 @@ impl Proxy {
                 .dot(p.normal)
         });
         let speeds = multipliers(pressed.planes(), approach).unwrap_or_default();
-        let mut touching = Touching { proxy, velocity: hand.velocity, ..Touching::default() };
+        let mut touching = Touching { proxy, ..Touching::nothing(hand) };
         for (k, plane) in pressed.planes().iter().enumerate() {
             let push = feel.stiffness_n_per_m * pressed.depths[k] - feel.damping_n_s_per_m * speeds[k];
             touching.velocity -= plane.normal * speeds[k];

@@ -304,6 +304,7 @@ fn a_release_is_at_once_and_what_comes_next_rises_from_zero() {
     assert!((next - 1.0).abs() < 1e-9, "{next}: 1000 N/s for 1 ms");
     assert!(gate.latched().is_empty());
 }
+
 /// `now` is a vector within `change` of `before`, shortened or not: a limit may shrink a force at once, and no more.
 fn follows(before: DVec3, now: DVec3, change: f64) -> bool {
     // The point nearest to `before` on the ray from `now` outwards.
