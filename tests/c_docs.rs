@@ -7,7 +7,8 @@ mod c_support;
 
 use c_support::header::{Prototype, prototypes};
 use c_support::{
-    Api, DRIVE_OWNED, Device, Session, SessionConfig, ToolState, Variant, Wrench, code, made, root,
+    Api, DRIVE_OWNED, Device, Scene, Session, SessionConfig, SourceConfig, ToolState, Variant, Wrench, code,
+    made, root,
 };
 use std::ffi::{CStr, c_char, c_void};
 use std::ptr::{null, null_mut};
@@ -33,7 +34,7 @@ fn row(function: &Prototype) -> String {
     let (what, rest) = function.comment.split_once(". [").unwrap();
     let (class, rest) = rest.split_once(']').unwrap();
     let errors = rest.split_once("Errors: ").map_or("", |(_, e)| e.split_once('.').map_or(e, |e| e.0));
-    let errors = errors.replace("as hapflow_session_set", "as `hapflow_session_set`");
+    let errors = errors.strip_prefix("as ").map_or(errors.into(), |other| format!("as `{other}`"));
     format!("| `{}` | {class} | {} | {errors} |\n", function.name, what)
 }
 
@@ -327,6 +328,43 @@ const MISTAKES: &[Mistake] = &[
     Mistake {
         what: "a limit of the gate that is raised while the session runs",
         make: |api, session| set_text(api, session, c"gate.max_force", c"4.5"),
+    },
+    Mistake {
+        what: "a source of a name that the scene has",
+        make: |api, _| {
+            let (scene, tap) =
+                (api.scene(), SourceConfig { name: c"tap".as_ptr(), ..made(api.source_config_init) });
+            assert_eq!((api.scene_add_source)(scene, &tap, null_mut()), code::OK);
+            ((api.scene_add_source)(scene, &tap, null_mut()), None)
+        },
+    },
+    Mistake {
+        what: "a pool whose corners are the wrong way round",
+        make: |api, _| ((api.scene_add_pool)(api.scene(), &[1.0; 3], &[0.0; 3], null_mut()), None),
+    },
+    Mistake {
+        what: "a session of a scene that is destroyed",
+        make: |api, _| {
+            let built = api.scene();
+            assert_eq!((api.scene_destroy)(built), code::OK);
+            let config = SessionConfig { built, ..api.config() };
+            ((api.session_create)(&config, &mut Session::default()), None)
+        },
+    },
+    Mistake {
+        what: "one scene more than `HAPFLOW_MAX_SCENES`",
+        make: |api, _| {
+            (0..64).for_each(|_| assert_ne!(api.scene(), Scene::default()));
+            ((api.scene_create)(&mut Scene::default()), None)
+        },
+    },
+    Mistake {
+        what: "a scene after a panic in it",
+        make: |api, _| {
+            let scene = api.scene();
+            panicking(api, || ((api.scene_check)(scene), None));
+            ((api.scene_check)(scene), None)
+        },
     },
     Mistake {
         what: "contacts of a size that no version has",

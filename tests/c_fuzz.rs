@@ -6,7 +6,8 @@
 mod c_support;
 
 use c_support::{
-    Api, DRIVE_OWNED, Device, JET, Random, Session, SessionConfig, ToolState, Variant, Wrench, code,
+    Api, DRIVE_OWNED, Device, JET, Random, Scene, Session, SessionConfig, SourceConfig, ToolConfig,
+    ToolState, Variant, Wrench, code, made,
 };
 use std::ffi::{CString, c_char};
 use std::ptr::{null, null_mut};
@@ -88,6 +89,7 @@ struct Fuzz {
     sessions: Vec<Session>,
     stale: Vec<Session>,
     devices: Vec<Device>,
+    scenes: Vec<Scene>,
     tick: u64,
     memory: Vec<u8>,
     /// How often each result came.
@@ -97,8 +99,9 @@ struct Fuzz {
 impl Fuzz {
     fn new(seed: u64) -> Self {
         let (api, random) = (Api::load(Variant::Shipped), Random(seed));
-        let (sessions, stale, devices, memory) = (Vec::new(), Vec::new(), Vec::new(), vec![GUARD; ROOM + 16]);
-        Self { api, random, sessions, stale, devices, tick: 0, memory, results: Default::default() }
+        let (sessions, stale, devices, scenes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (memory, results) = (vec![GUARD; ROOM + 16], Default::default());
+        Self { api, random, sessions, stale, devices, scenes, tick: 0, memory, results }
     }
 
     fn session(&mut self) -> Session {
@@ -285,6 +288,66 @@ impl Fuzz {
         }
     }
 
+    fn scene(&mut self) -> Scene {
+        match self.random.below(8) {
+            0 => Scene { id: self.random.below(70) | self.random.below(4) << 32 },
+            _ if self.scenes.is_empty() => Scene::default(),
+            _ => *self.random.of(&self.scenes),
+        }
+    }
+
+    /// Corners, one of them perhaps null.
+    fn corners(&mut self) -> [Option<[f64; 3]>; 2] {
+        std::array::from_fn(|_| (self.random.below(10) > 0).then(|| std::array::from_fn(|_| self.number())))
+    }
+
+    /// A scene is made, changed, made a session of or destroyed.
+    fn build(&mut self) -> i32 {
+        let (api, scene, [min, max]) = (self.api, self.scene(), self.corners());
+        let at = |corner: &Option<[f64; 3]>| corner.as_ref().map_or(null(), |c| &raw const *c);
+        let (min, max, index) = (at(&min), at(&max), null_mut());
+        match self.random.below(16) {
+            0 | 1 if self.scenes.len() < 8 => {
+                let mut made = Scene::default();
+                let result = (api.scene_create)(&mut made);
+                self.scenes.extend((result == code::OK).then_some(made));
+                result
+            }
+            2 if self.random.below(8) == 0 => {
+                self.scenes.retain(|s| *s != scene);
+                (api.scene_destroy)(scene)
+            }
+            3 => (api.scene_set)(scene, self.path(), self.number()),
+            4 => (api.scene_set_text)(scene, self.path(), self.value()),
+            5 => (api.scene_set_bounds)(scene, min, max),
+            6 => (api.scene_set_container)(scene, min, max),
+            7 => (api.scene_set_ground)(scene, &self.number()),
+            8 => (api.scene_add_pool)(scene, min, max, index),
+            9 => (api.scene_add_sink)(scene, min, max, self.place()),
+            10 => {
+                let (position, speed) = ([self.number(); 3], self.number());
+                let config =
+                    SourceConfig { position, speed, name: self.value(), ..made(api.source_config_init) };
+                (api.scene_add_source)(scene, &config, index)
+            }
+            11 => {
+                let (radius, shape) = (self.number(), self.random.below(4) as u32);
+                let config = ToolConfig { radius, shape, name: self.value(), ..made(api.tool_config_init) };
+                (api.scene_add_tool)(scene, &config, index)
+            }
+            12 => (api.scene_add_change)(scene, self.number(), self.value()),
+            13 => (api.scene_check)(scene),
+            14 => self.buffered(1, |to, n, length| (api.scene_write)(scene, to.cast(), n, length)),
+            _ => {
+                let mut session = Session::default();
+                let config = SessionConfig { built: scene, ..api.config() };
+                let result = (api.session_create)(&config, &mut session);
+                assert!(result < 0 || (api.session_destroy)(session) == code::OK);
+                result
+            }
+        }
+    }
+
     fn get(&mut self) -> i32 {
         let (session, path, mut number) = (self.session(), self.path(), 7.0);
         let result = (self.api.session_get)(session, path, &mut number);
@@ -296,7 +359,7 @@ impl Fuzz {
         let api = self.api;
         self.memory.fill(GUARD);
         let which = self.random.below(8);
-        let right = [96, 136, 280, 32, 40, 56, 72, 80][which as usize];
+        let right = [104, 136, 280, 32, 40, 56, 72, 80][which as usize];
         let size = self.struct_size(right);
         match which {
             0 => (api.session_config_init)(self.place(), size),
@@ -331,7 +394,7 @@ impl Fuzz {
 
     fn call(&mut self) -> i32 {
         let (api, session) = (self.api, self.session());
-        match self.random.below(36) {
+        match self.random.below(38) {
             0 => (api.negotiate)(self.random.below(3) as u32, self.random.below(3) as u32, self.place()),
             1 => self.create(),
             2 if self.random.below(6) == 0 => self.destroy(),
@@ -386,6 +449,7 @@ impl Fuzz {
             23 if self.random.below(2) == 0 => (api.obstacle_count)(session, self.place()),
             23 => (api.obstacle_publish)(session),
             24..28 => self.use_device(),
+            28 | 29 => self.build(),
             _ => self.tick(),
         }
     }

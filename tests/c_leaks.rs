@@ -20,6 +20,9 @@ fn a_thousand_sessions_come_and_go_and_leave_nothing() {
     for n in 0..1000 {
         let device = api.open(c"hand", c"").unwrap();
         let session = api.jet();
+        let scene = api.scene();
+        assert!(api.written(scene).len() > 10);
+        assert_eq!((api.scene_destroy)(scene), code::OK);
         api.run(session, 0, 2);
         assert_eq!((api.device_close)(device), code::OK);
         assert!(api.settings(session).len() > 60);

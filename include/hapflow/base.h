@@ -2,7 +2,7 @@
  *
  * Every function says how it may be called, with one of these classes:
  *
- *     [main]      may block and allocate. One thread at a time a session; it need not always be the same.
+ *     [main]      may block and allocate. One thread at a time a session or scene; it need not always be the same.
  *     [servo]     wait-free: no lock, no allocation, no system call, no log. One thread at a time a tool or device.
  *     [fluid]     computes, for milliseconds. One thread at a time a session.
  *     [obstacle]  wait-free, as [servo]. One thread at a time a session.

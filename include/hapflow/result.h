@@ -20,9 +20,9 @@ enum {
     HAPFLOW_ERROR_NOT_NEGOTIATED = -2, /* hapflow_negotiate was not called, or had no success */
     HAPFLOW_ERROR_VERSION = -3, /* host and library have no version in common */
     HAPFLOW_ERROR_NULL = -4, /* a pointer is null */
-    HAPFLOW_ERROR_HANDLE = -5, /* the session or device is null, was destroyed or closed, or never was */
-    HAPFLOW_ERROR_BUSY = -6, /* another thread is in a function of this class, for this session (or tool, device) */
-    HAPFLOW_ERROR_FULL = -7, /* HAPFLOW_MAX_SESSIONS, or HAPFLOW_MAX_DEVICES, are there: destroy or close one */
+    HAPFLOW_ERROR_HANDLE = -5, /* the session, device or scene is null, was destroyed or closed, or never was */
+    HAPFLOW_ERROR_BUSY = -6, /* another thread is in a function of this class, for this session (or tool, device, scene) */
+    HAPFLOW_ERROR_FULL = -7, /* HAPFLOW_MAX_SESSIONS, _DEVICES or _SCENES are there: destroy or close one */
     HAPFLOW_ERROR_STRUCT = -8, /* kind or size of a struct is wrong: call its init function */
     HAPFLOW_ERROR_UNSUPPORTED = -9, /* a field, or a chained struct, that this library does not know */
     HAPFLOW_ERROR_TEXT = -10, /* a text is not UTF-8 */
@@ -34,7 +34,7 @@ enum {
     HAPFLOW_ERROR_NOT_FINITE = -16, /* a number is NaN or infinite */
     HAPFLOW_ERROR_ORIENTATION = -17, /* the length of the quaternion differs from 1 by more than 1e-3 */
     HAPFLOW_ERROR_TIME = -18, /* a time goes back, is negative, or is too far ahead */
-    HAPFLOW_ERROR_FAULTED = -19, /* the fluid panicked before: destroy the session */
+    HAPFLOW_ERROR_FAULTED = -19, /* the fluid, or the scene, panicked before: destroy it */
     HAPFLOW_ERROR_INDEX = -20, /* an index that is not below the count */
     HAPFLOW_ERROR_DRIVE = -21, /* the session's own thread does that: tick the servo, or step the fluid */
     HAPFLOW_ERROR_DEVICE = -22, /* the device cannot be opened, or does not answer any more */

@@ -3,6 +3,7 @@
 #define HAPFLOW_SESSION_H
 
 #include <hapflow/device.h>
+#include <hapflow/scene.h>
 
 HAPFLOW_BEGIN_DECLS
 
@@ -45,7 +46,7 @@ enum {
  * refused (HAPFLOW_ERROR_BUSY). It must return: no exception and no longjmp may leave it. */
 typedef void (*hapflow_log_function)(uint32_t level, const char* text, void* user);
 
-/* How a session is made. Exactly one of `scene` and `toml` is given. */
+/* How a session is made. Exactly one of `scene`, `toml` and `built` is given. */
 typedef struct hapflow_session_config {
     uint32_t kind; /* HAPFLOW_KIND_SESSION_CONFIG */
     uint32_t size; /* sizeof(hapflow_session_config) */
@@ -67,9 +68,10 @@ typedef struct hapflow_session_config {
     void* log_user; /* handed to it, and not looked at */
     uint32_t record; /* 1: hapflow_session_record may be called; 0: then nothing is kept ready for it */
     uint32_t reserved; /* 0 */
+    hapflow_scene built; /* a scene that was built by calls, which is copied; or null, as 0 */
 } hapflow_session_config;
 #if UINTPTR_MAX > 0xffffffffu
-HAPFLOW_ASSERT_SIZE(hapflow_session_config, 96);
+HAPFLOW_ASSERT_SIZE(hapflow_session_config, 104);
 #endif
 
 /* Fills `config` with the defaults, for a struct of `size` bytes: sizeof *config. [any] Errors: NULL, STRUCT. */
@@ -78,7 +80,7 @@ HAPFLOW_API hapflow_result hapflow_session_config_init(hapflow_session_config* c
 /* Makes a session. [main, several at once] Takes milliseconds to seconds, as the scene has particles. The host owns
  * the session, and destroys it.
  * Errors: NOT_NEGOTIATED, NULL, STRUCT, UNSUPPORTED, TEXT, SCENE, NOT_FOUND, SETTING, VALUE, FULL, HANDLE (of a
- * device), DEVICE. */
+ * device or scene), BUSY and FAULTED (of a scene), DEVICE. */
 HAPFLOW_API hapflow_result hapflow_session_create(const hapflow_session_config* config, hapflow_session* session);
 
 /* Ends a session; its handle is stale from then on. [main, several at once] Threads of its own end first, the servos

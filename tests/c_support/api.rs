@@ -30,6 +30,7 @@ pub struct SessionConfig {
     pub log_user: *mut c_void,
     pub record: u32,
     pub reserved: u32,
+    pub built: Scene,
 }
 
 /// `hapflow_log_function`: level, text, user.
@@ -173,6 +174,65 @@ pub struct Contact {
     pub force: [f64; 3],
 }
 
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Scene {
+    pub id: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SourceConfig {
+    pub kind: u32,
+    pub size: u32,
+    pub next: *const c_void,
+    pub name: *const c_char,
+    pub position: [f64; 3],
+    pub direction: [f64; 3],
+    pub diameter: f64,
+    pub speed: f64,
+    pub period: f64,
+    pub duty: f64,
+    pub on: u32,
+    pub reserved: u32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct ObstacleConfig {
+    pub kind: u32,
+    pub size: u32,
+    pub next: *const c_void,
+    pub name: *const c_char,
+    pub shape: u32,
+    pub reserved: u32,
+    pub radius: f64,
+    pub thickness: f64,
+    pub position: [f64; 3],
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct ToolConfig {
+    pub kind: u32,
+    pub size: u32,
+    pub next: *const c_void,
+    pub name: *const c_char,
+    pub shape: u32,
+    pub reserved: u32,
+    pub radius: f64,
+    pub thickness: f64,
+    pub mass: f64,
+    pub collision_response: f64,
+    pub position: [f64; 3],
+    pub force_scale: f64,
+    pub solid_stiffness: f64,
+    pub solid_damping: f64,
+}
+
+/// A corner of a box.
+type Corner = *const [f64; 3];
+
 macro_rules! functions {
     ($($name:ident: fn($($arg:ty),*) $(-> $out:ty)?;)+) => {
         /// The library, loaded. The functions are declared safe: a test gives them wrong values on purpose, but
@@ -230,6 +290,27 @@ functions! {
     session_setting_info: fn(Session, u32, *mut SettingInfo) -> i32;
     session_emergency_stop: fn(Session) -> i32;
     session_clear_faults: fn(Session) -> i32;
+    scene_create: fn(*mut Scene) -> i32;
+    scene_load: fn(*const c_char, *mut Scene) -> i32;
+    scene_parse: fn(*const c_char, usize, *mut Scene) -> i32;
+    scene_destroy: fn(Scene) -> i32;
+    scene_set: fn(Scene, *const c_char, f64) -> i32;
+    scene_set_vector: fn(Scene, *const c_char, *const [f64; 3]) -> i32;
+    scene_set_text: fn(Scene, *const c_char, *const c_char) -> i32;
+    scene_set_bounds: fn(Scene, Corner, Corner) -> i32;
+    scene_set_ground: fn(Scene, *const f64) -> i32;
+    scene_set_container: fn(Scene, Corner, Corner) -> i32;
+    source_config_init: fn(*mut SourceConfig, u32) -> i32;
+    scene_add_source: fn(Scene, *const SourceConfig, *mut u32) -> i32;
+    obstacle_config_init: fn(*mut ObstacleConfig, u32) -> i32;
+    scene_add_obstacle: fn(Scene, *const ObstacleConfig, *mut u32) -> i32;
+    tool_config_init: fn(*mut ToolConfig, u32) -> i32;
+    scene_add_tool: fn(Scene, *const ToolConfig, *mut u32) -> i32;
+    scene_add_pool: fn(Scene, Corner, Corner, *mut u32) -> i32;
+    scene_add_sink: fn(Scene, Corner, Corner, *mut u32) -> i32;
+    scene_add_change: fn(Scene, f64, *const c_char) -> i32;
+    scene_check: fn(Scene) -> i32;
+    scene_write: fn(Scene, *mut c_char, usize, *mut usize) -> i32;
     session_limit_force: fn(Session, f64, f64) -> i32;
     session_contacts: fn(Session, u32, *mut Contact, u32, usize, *mut usize) -> i32;
     session_proxy: fn(Session, u32, *mut [f64; 3], *mut [f64; 4]) -> i32;
@@ -353,6 +434,18 @@ impl Api {
         let mut report = made(self.report_init);
         assert_eq!((self.session_report_of)(session, tool, &mut report), code::OK);
         report
+    }
+
+    /// An empty scene.
+    pub fn scene(&self) -> Scene {
+        let mut scene = Scene::default();
+        assert_eq!((self.scene_create)(&mut scene), code::OK);
+        scene
+    }
+
+    /// A scene as the text of a scene file.
+    pub fn written(&self, scene: Scene) -> String {
+        in_two_calls(|text, capacity, length| (self.scene_write)(scene, text, capacity, length))
     }
 
     /// What a tool touches, by the two calls that the header asks for.

@@ -31,6 +31,9 @@ pub unsafe trait Plain: Copy {}
 // SAFETY: as the trait asks.
 unsafe impl<const N: usize> Plain for [f64; N] {}
 
+// SAFETY: as the trait asks.
+unsafe impl Plain for f64 {}
+
 /// A struct that stands in arrays of the caller's, who says its size with them.
 pub trait Element: Copy {
     /// Its size when it was first published.
@@ -87,6 +90,11 @@ impl<T: Plain> In<T> {
     /// None.
     pub const NULL: Self = Self(std::ptr::null());
 
+    /// Reads it if it is given: where null is no mistake.
+    pub fn if_given(self) -> Option<T> {
+        self.whole().ok()
+    }
+
     /// Reads it whole: what never grows.
     pub fn whole(self) -> Result<T, Code> {
         if self.0.is_null() {
@@ -115,6 +123,11 @@ impl<T: Copy> Out<T> {
         // SAFETY: not null, hence a `T`.
         unsafe { self.0.write_unaligned(value) };
         Ok(())
+    }
+
+    /// Writes it if it is wanted: where null is no mistake.
+    pub fn offer(self, value: T) {
+        let _ = self.put(value);
     }
 
     /// Refuses null, before any work is done.

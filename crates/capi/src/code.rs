@@ -34,9 +34,9 @@ codes! {
     ERROR_NOT_NEGOTIATED = HAPFLOW_ERROR_NOT_NEGOTIATED, c"hapflow_negotiate comes before anything else";
     ERROR_VERSION = HAPFLOW_ERROR_VERSION, c"no common version of the ABI";
     ERROR_NULL = HAPFLOW_ERROR_NULL, c"a pointer that must not be null is";
-    ERROR_HANDLE = HAPFLOW_ERROR_HANDLE, c"the session or device is null, was destroyed or closed, or never was";
-    ERROR_BUSY = HAPFLOW_ERROR_BUSY, c"another thread is in a function of this class, for this session, tool or device";
-    ERROR_FULL = HAPFLOW_ERROR_FULL, c"as many sessions, or devices, as there can be";
+    ERROR_HANDLE = HAPFLOW_ERROR_HANDLE, c"the session, device or scene is null, was destroyed or closed, or never was";
+    ERROR_BUSY = HAPFLOW_ERROR_BUSY, c"another thread is in a function of this class, for this session, tool, device or scene";
+    ERROR_FULL = HAPFLOW_ERROR_FULL, c"as many sessions, devices or scenes as there can be";
     ERROR_STRUCT = HAPFLOW_ERROR_STRUCT, c"the kind or size of a struct is wrong: was it initialised?";
     ERROR_UNSUPPORTED = HAPFLOW_ERROR_UNSUPPORTED, c"something that this version does not know";
     ERROR_TEXT = HAPFLOW_ERROR_TEXT, c"a text that is not UTF-8";
@@ -48,7 +48,7 @@ codes! {
     ERROR_NOT_FINITE = HAPFLOW_ERROR_NOT_FINITE, c"a number that is NaN or infinite";
     ERROR_ORIENTATION = HAPFLOW_ERROR_ORIENTATION, c"an orientation that is not a unit quaternion within 1e-3";
     ERROR_TIME = HAPFLOW_ERROR_TIME, c"a time that goes back, is negative, or is too far ahead";
-    ERROR_FAULTED = HAPFLOW_ERROR_FAULTED, c"the fluid panicked before; only destroying is left";
+    ERROR_FAULTED = HAPFLOW_ERROR_FAULTED, c"the fluid, or the scene, panicked before; only destroying is left";
     ERROR_INDEX = HAPFLOW_ERROR_INDEX, c"an index that is not below the count";
     ERROR_DRIVE = HAPFLOW_ERROR_DRIVE, c"the session's own thread does that: tick the servo, or step the fluid";
     ERROR_DEVICE = HAPFLOW_ERROR_DEVICE, c"the device cannot be opened, or does not answer any more";

@@ -6,9 +6,10 @@ use crate::contract::as_in_header;
 use crate::fence::fence;
 use crate::generated as c;
 use crate::generated::HAPFLOW_MAX_TOOLS;
-use crate::handle::DeviceHandle;
+use crate::handle::{DeviceHandle, Id, SceneHandle};
 use crate::log::Log;
 use crate::scene_source::SceneSource;
+use crate::table::LIBRARY;
 use hapflow_engine::{Drive, Scene};
 use std::ffi::c_void;
 
@@ -38,6 +39,7 @@ pub struct SessionConfig {
     log_user: LogUser,
     record: u32,
     reserved: u32,
+    built: SceneHandle,
 }
 
 as_in_header!(
@@ -58,6 +60,7 @@ as_in_header!(
         log_user,
         record,
         reserved,
+        built,
     }
 );
 
@@ -86,14 +89,13 @@ impl SessionConfig {
         log_user: LogUser::NULL,
         record: 0,
         reserved: 0,
+        built: SceneHandle { id: Id::NULL },
     };
 
     /// Refuses what this version does not know.
     pub fn check(&self) -> Result<(), Failure> {
-        if self.kind != KIND {
-            return Err(Code::ERROR_STRUCT.into());
-        }
-        if !self.next.is_null() || self.reserved != 0 {
+        check_head(self.kind, KIND, self.next)?;
+        if self.reserved != 0 {
             return Err(Code::ERROR_UNSUPPORTED.into());
         }
         if self.threads > MOST_THREADS {
@@ -133,12 +135,24 @@ impl SessionConfig {
     /// The scene, with the settings on top.
     pub fn scene(&self) -> Result<Scene, Failure> {
         let Self { scene, toml, toml_length, settings, .. } = *self;
-        SceneSource { scene, toml, toml_length, settings }.read(None)
+        SceneSource { scene, toml, toml_length, settings }.read(self.built()?)
     }
 
     /// The log of a session with so many tools.
     pub fn log(&self, tools: usize) -> Result<Option<Log>, Failure> {
         Log::open(self.log, self.log_user, tools)
+    }
+
+    /// A copy of the scene that was built by calls, if it is one.
+    fn built(&self) -> Result<Option<Scene>, Failure> {
+        if self.built.id == Id::NULL {
+            return Ok(None);
+        }
+        if !self.scene.is_null() || !self.toml.is_null() {
+            let text = "only one of scene, toml and built may be given".into();
+            return Err(Failure { code: Code::ERROR_SCENE, text });
+        }
+        Ok(Some(LIBRARY.scenes.enter(self.built)?.scene()?.clone()))
     }
 
     /// The devices of an owned servo that the host gives.
@@ -155,6 +169,14 @@ impl SessionConfig {
             Ok(self.devices.several(self.device_count as usize)?)
         }
     }
+}
+
+/// Refuses a configuration of another kind, and one with a struct behind it: none is known.
+pub fn check_head(kind: u32, expected: u32, next: *const c_void) -> Result<(), Failure> {
+    if kind != expected {
+        return Err(Code::ERROR_STRUCT.into());
+    }
+    if next.is_null() { Ok(()) } else { Err(Code::ERROR_UNSUPPORTED.into()) }
 }
 
 fn drive(field: &str, word: u32) -> Result<Drive, Failure> {

@@ -7,10 +7,11 @@
 use crate::caller::{Buffer, In, LogFunction, LogUser, Out, Text};
 use crate::code::Code;
 use crate::generated as c;
-use crate::handle::{DeviceHandle, Handle, Id};
+use crate::handle::{DeviceHandle, Handle, Id, SceneHandle};
 use crate::{
     build_info, catalog, config, contact, device, device_config, extension, fluid, library, log, obstacle,
-    recording, report, servo, servo_pace, session, setting_info, tool_state,
+    obstacle_config, recording, report, scene, servo, servo_pace, session, setting_info, source_config,
+    tool_config, tool_state,
 };
 use std::ffi::{c_char, c_void};
 
@@ -43,13 +44,17 @@ same_in_c! {
     [f64; 3] = [f64; 3], [f64; 4] = [f64; 4],
     Text = *const c_char, *const c_char = *const c_char, *const c_void = *const c_void,
     LogFunction = c::hapflow_log_function, LogUser = *mut c_void,
-    Code = c::hapflow_result, Handle = c::hapflow_session, DeviceHandle = c::hapflow_device,
+    Code = c::hapflow_result, SceneHandle = c::hapflow_scene, Handle = c::hapflow_session, DeviceHandle = c::hapflow_device,
 }
 
 targets! {
     u32 = u32, u64 = u64, usize = usize, f64 = f64, c_char = c_char,
     [f64; 3] = f64, [f64; 4] = f64, [f32; 3] = f32,
     Handle = c::hapflow_session, DeviceHandle = c::hapflow_device,
+    SceneHandle = c::hapflow_scene,
+    source_config::SourceConfig = c::hapflow_source_config,
+    obstacle_config::ObstacleConfig = c::hapflow_obstacle_config,
+    tool_config::ToolConfig = c::hapflow_tool_config,
     device_config::DeviceConfig = c::hapflow_device_config,
     servo_pace::ServoPaceRecord = c::hapflow_servo_pace,
     config::SessionConfig = c::hapflow_session_config,
@@ -141,6 +146,27 @@ functions! {
     catalog::hapflow_scene_info_init(_, _);
     catalog::hapflow_scene_count();
     catalog::hapflow_scene_get(_, _);
+    scene::hapflow_scene_create(_);
+    scene::hapflow_scene_load(_, _);
+    scene::hapflow_scene_parse(_, _, _);
+    scene::hapflow_scene_destroy(_);
+    scene::hapflow_scene_set(_, _, _);
+    scene::hapflow_scene_set_vector(_, _, _);
+    scene::hapflow_scene_set_text(_, _, _);
+    scene::hapflow_scene_set_bounds(_, _, _);
+    scene::hapflow_scene_set_ground(_, _);
+    scene::hapflow_scene_set_container(_, _, _);
+    source_config::hapflow_source_config_init(_, _);
+    scene::hapflow_scene_add_source(_, _, _);
+    obstacle_config::hapflow_obstacle_config_init(_, _);
+    scene::hapflow_scene_add_obstacle(_, _, _);
+    tool_config::hapflow_tool_config_init(_, _);
+    scene::hapflow_scene_add_tool(_, _, _);
+    scene::hapflow_scene_add_pool(_, _, _, _);
+    scene::hapflow_scene_add_sink(_, _, _, _);
+    scene::hapflow_scene_add_change(_, _, _);
+    scene::hapflow_scene_check(_);
+    scene::hapflow_scene_write(_, _, _, _);
     tool_state::hapflow_tool_state_init(_, _);
     catalog::hapflow_device_info_init(_, _);
     catalog::hapflow_device_count();

@@ -1,7 +1,8 @@
 //! `hapflow_device_config`: which device, and how it is made.
 
 use crate::caller::{Record, Text};
-use crate::code::{Code, Failure};
+use crate::code::Failure;
+use crate::config::check_head;
 use crate::contract::as_in_header;
 use crate::generated::HAPFLOW_KIND_DEVICE_CONFIG;
 use crate::scene_source::SceneSource;
@@ -47,10 +48,7 @@ impl DeviceConfig {
 
     /// Refuses what this version does not know.
     pub fn check(&self) -> Result<(), Failure> {
-        if self.kind != HAPFLOW_KIND_DEVICE_CONFIG {
-            return Err(Code::ERROR_STRUCT.into());
-        }
-        if self.next.is_null() { Ok(()) } else { Err(Code::ERROR_UNSUPPORTED.into()) }
+        check_head(self.kind, HAPFLOW_KIND_DEVICE_CONFIG, self.next)
     }
 
     /// The scene that has the device, by its name if one is given.

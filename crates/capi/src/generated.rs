@@ -2,6 +2,10 @@
 #![allow(dead_code, non_camel_case_types, clippy::all)]
 
 pub const HAPFLOW_ABI_VERSION: u32 = 1;
+pub const HAPFLOW_MAX_SCENES: u32 = 64;
+pub const HAPFLOW_KIND_SOURCE_CONFIG: u32 = 3;
+pub const HAPFLOW_KIND_OBSTACLE_CONFIG: u32 = 4;
+pub const HAPFLOW_KIND_TOOL_CONFIG: u32 = 5;
 pub const HAPFLOW_MAX_DEVICES: u32 = 64;
 pub const HAPFLOW_KIND_DEVICE_CONFIG: u32 = 2;
 pub const HAPFLOW_MAX_SESSIONS: u32 = 64;
@@ -74,6 +78,205 @@ const _: () = {
     [
         "Offset of field: hapflow_scene_info::toml",
     ][::core::mem::offset_of!(hapflow_scene_info, toml) - 24usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_scene {
+    pub id: u64,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    ["Size of hapflow_scene"][::core::mem::size_of::<hapflow_scene>() - 8usize];
+    ["Alignment of hapflow_scene"][::core::mem::align_of::<hapflow_scene>() - 8usize];
+    [
+        "Offset of field: hapflow_scene::id",
+    ][::core::mem::offset_of!(hapflow_scene, id) - 0usize];
+};
+pub const HAPFLOW_SHAPE_SPHERE: _bindgen_ty_2 = 1;
+pub const HAPFLOW_SHAPE_DISC: _bindgen_ty_2 = 2;
+pub type _bindgen_ty_2 = ::core::ffi::c_uint;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_source_config {
+    pub kind: u32,
+    pub size: u32,
+    pub next: *const ::core::ffi::c_void,
+    pub name: *const ::core::ffi::c_char,
+    pub position: [f64; 3usize],
+    pub direction: [f64; 3usize],
+    pub diameter: f64,
+    pub speed: f64,
+    pub period: f64,
+    pub duty: f64,
+    pub on: u32,
+    pub reserved: u32,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_source_config",
+    ][::core::mem::size_of::<hapflow_source_config>() - 112usize];
+    [
+        "Alignment of hapflow_source_config",
+    ][::core::mem::align_of::<hapflow_source_config>() - 8usize];
+    [
+        "Offset of field: hapflow_source_config::kind",
+    ][::core::mem::offset_of!(hapflow_source_config, kind) - 0usize];
+    [
+        "Offset of field: hapflow_source_config::size",
+    ][::core::mem::offset_of!(hapflow_source_config, size) - 4usize];
+    [
+        "Offset of field: hapflow_source_config::next",
+    ][::core::mem::offset_of!(hapflow_source_config, next) - 8usize];
+    [
+        "Offset of field: hapflow_source_config::name",
+    ][::core::mem::offset_of!(hapflow_source_config, name) - 16usize];
+    [
+        "Offset of field: hapflow_source_config::position",
+    ][::core::mem::offset_of!(hapflow_source_config, position) - 24usize];
+    [
+        "Offset of field: hapflow_source_config::direction",
+    ][::core::mem::offset_of!(hapflow_source_config, direction) - 48usize];
+    [
+        "Offset of field: hapflow_source_config::diameter",
+    ][::core::mem::offset_of!(hapflow_source_config, diameter) - 72usize];
+    [
+        "Offset of field: hapflow_source_config::speed",
+    ][::core::mem::offset_of!(hapflow_source_config, speed) - 80usize];
+    [
+        "Offset of field: hapflow_source_config::period",
+    ][::core::mem::offset_of!(hapflow_source_config, period) - 88usize];
+    [
+        "Offset of field: hapflow_source_config::duty",
+    ][::core::mem::offset_of!(hapflow_source_config, duty) - 96usize];
+    [
+        "Offset of field: hapflow_source_config::on",
+    ][::core::mem::offset_of!(hapflow_source_config, on) - 104usize];
+    [
+        "Offset of field: hapflow_source_config::reserved",
+    ][::core::mem::offset_of!(hapflow_source_config, reserved) - 108usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_obstacle_config {
+    pub kind: u32,
+    pub size: u32,
+    pub next: *const ::core::ffi::c_void,
+    pub name: *const ::core::ffi::c_char,
+    pub shape: u32,
+    pub reserved: u32,
+    pub radius: f64,
+    pub thickness: f64,
+    pub position: [f64; 3usize],
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_obstacle_config",
+    ][::core::mem::size_of::<hapflow_obstacle_config>() - 72usize];
+    [
+        "Alignment of hapflow_obstacle_config",
+    ][::core::mem::align_of::<hapflow_obstacle_config>() - 8usize];
+    [
+        "Offset of field: hapflow_obstacle_config::kind",
+    ][::core::mem::offset_of!(hapflow_obstacle_config, kind) - 0usize];
+    [
+        "Offset of field: hapflow_obstacle_config::size",
+    ][::core::mem::offset_of!(hapflow_obstacle_config, size) - 4usize];
+    [
+        "Offset of field: hapflow_obstacle_config::next",
+    ][::core::mem::offset_of!(hapflow_obstacle_config, next) - 8usize];
+    [
+        "Offset of field: hapflow_obstacle_config::name",
+    ][::core::mem::offset_of!(hapflow_obstacle_config, name) - 16usize];
+    [
+        "Offset of field: hapflow_obstacle_config::shape",
+    ][::core::mem::offset_of!(hapflow_obstacle_config, shape) - 24usize];
+    [
+        "Offset of field: hapflow_obstacle_config::reserved",
+    ][::core::mem::offset_of!(hapflow_obstacle_config, reserved) - 28usize];
+    [
+        "Offset of field: hapflow_obstacle_config::radius",
+    ][::core::mem::offset_of!(hapflow_obstacle_config, radius) - 32usize];
+    [
+        "Offset of field: hapflow_obstacle_config::thickness",
+    ][::core::mem::offset_of!(hapflow_obstacle_config, thickness) - 40usize];
+    [
+        "Offset of field: hapflow_obstacle_config::position",
+    ][::core::mem::offset_of!(hapflow_obstacle_config, position) - 48usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_tool_config {
+    pub kind: u32,
+    pub size: u32,
+    pub next: *const ::core::ffi::c_void,
+    pub name: *const ::core::ffi::c_char,
+    pub shape: u32,
+    pub reserved: u32,
+    pub radius: f64,
+    pub thickness: f64,
+    pub mass: f64,
+    pub collision_response: f64,
+    pub position: [f64; 3usize],
+    pub force_scale: f64,
+    pub solid_stiffness: f64,
+    pub solid_damping: f64,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_tool_config",
+    ][::core::mem::size_of::<hapflow_tool_config>() - 112usize];
+    [
+        "Alignment of hapflow_tool_config",
+    ][::core::mem::align_of::<hapflow_tool_config>() - 8usize];
+    [
+        "Offset of field: hapflow_tool_config::kind",
+    ][::core::mem::offset_of!(hapflow_tool_config, kind) - 0usize];
+    [
+        "Offset of field: hapflow_tool_config::size",
+    ][::core::mem::offset_of!(hapflow_tool_config, size) - 4usize];
+    [
+        "Offset of field: hapflow_tool_config::next",
+    ][::core::mem::offset_of!(hapflow_tool_config, next) - 8usize];
+    [
+        "Offset of field: hapflow_tool_config::name",
+    ][::core::mem::offset_of!(hapflow_tool_config, name) - 16usize];
+    [
+        "Offset of field: hapflow_tool_config::shape",
+    ][::core::mem::offset_of!(hapflow_tool_config, shape) - 24usize];
+    [
+        "Offset of field: hapflow_tool_config::reserved",
+    ][::core::mem::offset_of!(hapflow_tool_config, reserved) - 28usize];
+    [
+        "Offset of field: hapflow_tool_config::radius",
+    ][::core::mem::offset_of!(hapflow_tool_config, radius) - 32usize];
+    [
+        "Offset of field: hapflow_tool_config::thickness",
+    ][::core::mem::offset_of!(hapflow_tool_config, thickness) - 40usize];
+    [
+        "Offset of field: hapflow_tool_config::mass",
+    ][::core::mem::offset_of!(hapflow_tool_config, mass) - 48usize];
+    [
+        "Offset of field: hapflow_tool_config::collision_response",
+    ][::core::mem::offset_of!(hapflow_tool_config, collision_response) - 56usize];
+    [
+        "Offset of field: hapflow_tool_config::position",
+    ][::core::mem::offset_of!(hapflow_tool_config, position) - 64usize];
+    [
+        "Offset of field: hapflow_tool_config::force_scale",
+    ][::core::mem::offset_of!(hapflow_tool_config, force_scale) - 88usize];
+    [
+        "Offset of field: hapflow_tool_config::solid_stiffness",
+    ][::core::mem::offset_of!(hapflow_tool_config, solid_stiffness) - 96usize];
+    [
+        "Offset of field: hapflow_tool_config::solid_damping",
+    ][::core::mem::offset_of!(hapflow_tool_config, solid_damping) - 104usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -265,13 +468,13 @@ const _: () = {
         "Offset of field: hapflow_session::id",
     ][::core::mem::offset_of!(hapflow_session, id) - 0usize];
 };
-pub const HAPFLOW_DRIVE_HOST: _bindgen_ty_2 = 0;
-pub const HAPFLOW_DRIVE_OWNED: _bindgen_ty_2 = 1;
-pub type _bindgen_ty_2 = ::core::ffi::c_uint;
-pub const HAPFLOW_LOG_ERROR: _bindgen_ty_3 = 1;
-pub const HAPFLOW_LOG_WARNING: _bindgen_ty_3 = 2;
-pub const HAPFLOW_LOG_INFO: _bindgen_ty_3 = 3;
+pub const HAPFLOW_DRIVE_HOST: _bindgen_ty_3 = 0;
+pub const HAPFLOW_DRIVE_OWNED: _bindgen_ty_3 = 1;
 pub type _bindgen_ty_3 = ::core::ffi::c_uint;
+pub const HAPFLOW_LOG_ERROR: _bindgen_ty_4 = 1;
+pub const HAPFLOW_LOG_WARNING: _bindgen_ty_4 = 2;
+pub const HAPFLOW_LOG_INFO: _bindgen_ty_4 = 3;
+pub type _bindgen_ty_4 = ::core::ffi::c_uint;
 pub type hapflow_log_function = ::core::option::Option<
     unsafe extern "C" fn(
         level: u32,
@@ -298,13 +501,14 @@ pub struct hapflow_session_config {
     pub log_user: *mut ::core::ffi::c_void,
     pub record: u32,
     pub reserved: u32,
+    pub built: hapflow_scene,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 #[cfg(target_pointer_width = "64")]
 const _: () = {
     [
         "Size of hapflow_session_config",
-    ][::core::mem::size_of::<hapflow_session_config>() - 96usize];
+    ][::core::mem::size_of::<hapflow_session_config>() - 104usize];
     [
         "Alignment of hapflow_session_config",
     ][::core::mem::align_of::<hapflow_session_config>() - 8usize];
@@ -356,14 +560,17 @@ const _: () = {
     [
         "Offset of field: hapflow_session_config::reserved",
     ][::core::mem::offset_of!(hapflow_session_config, reserved) - 92usize];
+    [
+        "Offset of field: hapflow_session_config::built",
+    ][::core::mem::offset_of!(hapflow_session_config, built) - 96usize];
 };
-pub const HAPFLOW_SETTING_NUMBER: _bindgen_ty_4 = 1;
-pub const HAPFLOW_SETTING_INTEGER: _bindgen_ty_4 = 2;
-pub const HAPFLOW_SETTING_SWITCH: _bindgen_ty_4 = 3;
-pub const HAPFLOW_SETTING_CHOICE: _bindgen_ty_4 = 4;
-pub const HAPFLOW_SETTING_TEXT: _bindgen_ty_4 = 5;
-pub const HAPFLOW_SETTING_VECTOR: _bindgen_ty_4 = 6;
-pub type _bindgen_ty_4 = ::core::ffi::c_uint;
+pub const HAPFLOW_SETTING_NUMBER: _bindgen_ty_5 = 1;
+pub const HAPFLOW_SETTING_INTEGER: _bindgen_ty_5 = 2;
+pub const HAPFLOW_SETTING_SWITCH: _bindgen_ty_5 = 3;
+pub const HAPFLOW_SETTING_CHOICE: _bindgen_ty_5 = 4;
+pub const HAPFLOW_SETTING_TEXT: _bindgen_ty_5 = 5;
+pub const HAPFLOW_SETTING_VECTOR: _bindgen_ty_5 = 6;
+pub type _bindgen_ty_5 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_setting_info {
@@ -426,10 +633,10 @@ const _: () = {
         "Offset of field: hapflow_setting_info::usual",
     ][::core::mem::offset_of!(hapflow_setting_info, usual) - 72usize];
 };
-pub const HAPFLOW_PRIORITY_NOT_ASKED: _bindgen_ty_5 = 0;
-pub const HAPFLOW_PRIORITY_GRANTED: _bindgen_ty_5 = 1;
-pub const HAPFLOW_PRIORITY_REFUSED: _bindgen_ty_5 = 2;
-pub type _bindgen_ty_5 = ::core::ffi::c_uint;
+pub const HAPFLOW_PRIORITY_NOT_ASKED: _bindgen_ty_6 = 0;
+pub const HAPFLOW_PRIORITY_GRANTED: _bindgen_ty_6 = 1;
+pub const HAPFLOW_PRIORITY_REFUSED: _bindgen_ty_6 = 2;
+pub type _bindgen_ty_6 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_servo_pace {
@@ -488,18 +695,18 @@ const _: () = {
         "Offset of field: hapflow_servo_pace::device",
     ][::core::mem::offset_of!(hapflow_servo_pace, device) - 64usize];
 };
-pub const HAPFLOW_FAULT_INPUT: _bindgen_ty_6 = 1;
-pub const HAPFLOW_FAULT_FORCE: _bindgen_ty_6 = 2;
-pub const HAPFLOW_FAULT_PANIC: _bindgen_ty_6 = 4;
-pub const HAPFLOW_FAULT_DEVICE_LOST: _bindgen_ty_6 = 16;
-pub const HAPFLOW_FAULT_EMERGENCY_STOP: _bindgen_ty_6 = 32;
-pub const HAPFLOW_FAULT_FLUID: _bindgen_ty_6 = 128;
-pub const HAPFLOW_FAULT_STALE: _bindgen_ty_6 = 8;
-pub const HAPFLOW_FAULT_PATH_OVERFLOW: _bindgen_ty_6 = 64;
-pub const HAPFLOW_FAULT_LATE_TICK: _bindgen_ty_6 = 256;
-pub const HAPFLOW_FAULT_FORCE_LIMITED: _bindgen_ty_6 = 512;
-pub const HAPFLOW_FAULT_SLEW_LIMITED: _bindgen_ty_6 = 1024;
-pub type _bindgen_ty_6 = ::core::ffi::c_uint;
+pub const HAPFLOW_FAULT_INPUT: _bindgen_ty_7 = 1;
+pub const HAPFLOW_FAULT_FORCE: _bindgen_ty_7 = 2;
+pub const HAPFLOW_FAULT_PANIC: _bindgen_ty_7 = 4;
+pub const HAPFLOW_FAULT_DEVICE_LOST: _bindgen_ty_7 = 16;
+pub const HAPFLOW_FAULT_EMERGENCY_STOP: _bindgen_ty_7 = 32;
+pub const HAPFLOW_FAULT_FLUID: _bindgen_ty_7 = 128;
+pub const HAPFLOW_FAULT_STALE: _bindgen_ty_7 = 8;
+pub const HAPFLOW_FAULT_PATH_OVERFLOW: _bindgen_ty_7 = 64;
+pub const HAPFLOW_FAULT_LATE_TICK: _bindgen_ty_7 = 256;
+pub const HAPFLOW_FAULT_FORCE_LIMITED: _bindgen_ty_7 = 512;
+pub const HAPFLOW_FAULT_SLEW_LIMITED: _bindgen_ty_7 = 1024;
+pub type _bindgen_ty_7 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_report {
@@ -690,10 +897,10 @@ const _: () = {
         "Offset of field: hapflow_log_extension::poll",
     ][::core::mem::offset_of!(hapflow_log_extension, poll) - 8usize];
 };
-pub const HAPFLOW_SOLID_GROUND: _bindgen_ty_7 = 1;
-pub const HAPFLOW_SOLID_CONTAINER: _bindgen_ty_7 = 2;
-pub const HAPFLOW_SOLID_OBSTACLE: _bindgen_ty_7 = 3;
-pub type _bindgen_ty_7 = ::core::ffi::c_uint;
+pub const HAPFLOW_SOLID_GROUND: _bindgen_ty_8 = 1;
+pub const HAPFLOW_SOLID_CONTAINER: _bindgen_ty_8 = 2;
+pub const HAPFLOW_SOLID_OBSTACLE: _bindgen_ty_8 = 3;
+pub type _bindgen_ty_8 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_contact {
@@ -756,6 +963,97 @@ unsafe extern "C" {
     pub fn hapflow_scene_get(
         index: u32,
         info: *mut hapflow_scene_info,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_create(scene: *mut hapflow_scene) -> hapflow_result;
+    pub fn hapflow_scene_load(
+        name: *const ::core::ffi::c_char,
+        scene: *mut hapflow_scene,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_parse(
+        toml: *const ::core::ffi::c_char,
+        length: usize,
+        scene: *mut hapflow_scene,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_destroy(scene: hapflow_scene) -> hapflow_result;
+    pub fn hapflow_scene_set(
+        scene: hapflow_scene,
+        path: *const ::core::ffi::c_char,
+        value: f64,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_set_vector(
+        scene: hapflow_scene,
+        path: *const ::core::ffi::c_char,
+        value: *const f64,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_set_text(
+        scene: hapflow_scene,
+        path: *const ::core::ffi::c_char,
+        value: *const ::core::ffi::c_char,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_set_bounds(
+        scene: hapflow_scene,
+        min: *const f64,
+        max: *const f64,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_set_ground(
+        scene: hapflow_scene,
+        height: *const f64,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_set_container(
+        scene: hapflow_scene,
+        min: *const f64,
+        max: *const f64,
+    ) -> hapflow_result;
+    pub fn hapflow_source_config_init(
+        config: *mut hapflow_source_config,
+        size: u32,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_add_source(
+        scene: hapflow_scene,
+        config: *const hapflow_source_config,
+        index: *mut u32,
+    ) -> hapflow_result;
+    pub fn hapflow_obstacle_config_init(
+        config: *mut hapflow_obstacle_config,
+        size: u32,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_add_obstacle(
+        scene: hapflow_scene,
+        config: *const hapflow_obstacle_config,
+        index: *mut u32,
+    ) -> hapflow_result;
+    pub fn hapflow_tool_config_init(
+        config: *mut hapflow_tool_config,
+        size: u32,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_add_tool(
+        scene: hapflow_scene,
+        config: *const hapflow_tool_config,
+        index: *mut u32,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_add_pool(
+        scene: hapflow_scene,
+        min: *const f64,
+        max: *const f64,
+        index: *mut u32,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_add_sink(
+        scene: hapflow_scene,
+        min: *const f64,
+        max: *const f64,
+        index: *mut u32,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_add_change(
+        scene: hapflow_scene,
+        at_s: f64,
+        settings: *const ::core::ffi::c_char,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_check(scene: hapflow_scene) -> hapflow_result;
+    pub fn hapflow_scene_write(
+        scene: hapflow_scene,
+        text: *mut ::core::ffi::c_char,
+        capacity: usize,
+        length: *mut usize,
     ) -> hapflow_result;
     pub fn hapflow_tool_state_init(
         state: *mut hapflow_tool_state,

@@ -22,6 +22,15 @@ pub struct DeviceHandle {
 
 as_in_header!(DeviceHandle = hapflow_device { id });
 
+/// `hapflow_scene`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SceneHandle {
+    pub id: Id,
+}
+
+as_in_header!(SceneHandle = hapflow_scene { id });
+
 // SAFETY: repr(C), a number.
 unsafe impl Plain for DeviceHandle {}
 
@@ -31,6 +40,9 @@ unsafe impl Plain for DeviceHandle {}
 pub struct Id(u64);
 
 impl Id {
+    /// Of nothing.
+    pub const NULL: Self = Self(0);
+
     pub fn new(place: usize, generation: u32) -> Self {
         Self(u64::from(generation) << 32 | (place as u64 + 1))
     }

@@ -200,7 +200,8 @@ pub fn with_any(session: Handle, body: impl FnOnce(&AnySide) -> Outcome) -> Code
     fence(|| body(&*LIBRARY.any(session)?))
 }
 
-fn finite(path: &str, numbers: &[f64]) -> Result<(), Failure> {
+/// Refuses numbers that are not finite.
+pub fn finite(path: &str, numbers: &[f64]) -> Result<(), Failure> {
     if numbers.iter().all(|n| n.is_finite()) {
         return Ok(());
     }

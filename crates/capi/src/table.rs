@@ -7,6 +7,7 @@ use crate::fluid::FluidSide;
 use crate::generated::{HAPFLOW_MAX_SESSIONS, HAPFLOW_MAX_TOOLS};
 use crate::handle::{Handle, Id, next_generation};
 use crate::obstacle::ObstacleSide;
+use crate::scene_table::Scenes;
 use crate::servo::ServoSide;
 use crate::session::{AnySide, MainSide};
 use hapflow_realtime::{Alone, Claimed, Lane, Refused, Sharing};
@@ -40,10 +41,11 @@ pub struct Parts {
     pub any: AnySide,
 }
 
-/// All that lasts: the version that was agreed on, the texts on what the build has, and the sessions.
+/// All that lasts: the version that was agreed on, the texts on what the build has, the scenes, and the sessions.
 pub struct Library {
     version: AtomicU32,
     catalog: OnceLock<Catalog>,
+    pub scenes: Scenes,
     slots: [Slot; MAX_SESSIONS],
 }
 
@@ -61,7 +63,7 @@ impl From<Refused> for Code {
 impl Library {
     const fn new() -> Self {
         let slots = [const { Slot::vacant() }; MAX_SESSIONS];
-        Self { version: AtomicU32::new(0), catalog: OnceLock::new(), slots }
+        Self { version: AtomicU32::new(0), catalog: OnceLock::new(), scenes: Scenes::new(), slots }
     }
 
     /// Notes the version that was agreed on.

@@ -1,0 +1,75 @@
+//! `hapflow_obstacle_config`: something solid.
+
+use crate::caller::{Out, Record, Text};
+use crate::code::{Code, Failure};
+use crate::config::check_head;
+use crate::contract::as_in_header;
+use crate::fence::fence;
+use crate::generated as c;
+use crate::part::{Part, name, shape, unreserved};
+use crate::session::finite;
+use glam::DVec3;
+use hapflow_engine::Obstacle;
+use std::ffi::c_void;
+
+/// `hapflow_obstacle_config`.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct ObstacleConfig {
+    kind: u32,
+    size: u32,
+    next: *const c_void,
+    name: Text,
+    shape: u32,
+    reserved: u32,
+    radius: f64,
+    thickness: f64,
+    position: [f64; 3],
+}
+
+as_in_header!(
+    ObstacleConfig =
+        hapflow_obstacle_config { kind, size, next, name, shape, reserved, radius, thickness, position }
+);
+
+// SAFETY: repr(C), no padding with pointers of 4 or 8 bytes; every field takes any bits.
+unsafe impl Record for ObstacleConfig {
+    const SIZE_AT: usize = 4;
+    const FIRST_SIZE: usize = 56 + 2 * size_of::<usize>();
+}
+
+impl Part for ObstacleConfig {
+    type Thing = Obstacle;
+
+    const DEFAULT: Self = Self {
+        kind: c::HAPFLOW_KIND_OBSTACLE_CONFIG,
+        size: size_of::<Self>() as u32,
+        next: std::ptr::null(),
+        name: Text::NULL,
+        shape: c::HAPFLOW_SHAPE_SPHERE,
+        reserved: 0,
+        radius: 0.02,
+        thickness: 0.01,
+        position: [0.0; 3],
+    };
+
+    fn thing(&self) -> Result<Obstacle, Failure> {
+        check_head(self.kind, c::HAPFLOW_KIND_OBSTACLE_CONFIG, self.next)?;
+        unreserved(self.reserved)?;
+        finite("radius, thickness", &[self.radius, self.thickness])?;
+        finite("position", &self.position)?;
+        Ok(Obstacle {
+            name: name(self.name)?,
+            shape: shape(self.shape)?,
+            radius: self.radius,
+            thickness: self.thickness,
+            position: DVec3::from(self.position),
+        })
+    }
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_obstacle_config_init(config: Out<ObstacleConfig>, size: u32) -> Code {
+    fence(|| config.init(&ObstacleConfig::DEFAULT, size).map(|()| Code::OK))
+}
