@@ -104,14 +104,15 @@ fn declared() -> BTreeSet<String> {
 }
 
 #[test]
-fn every_function_of_a_session_and_a_device_states_its_thread_class() {
+fn every_function_of_a_class_states_its_thread_class() {
     let wrapper = fs::read_to_string(root().join("cpp/include/hapflow/hapflow.hpp")).unwrap();
     assert!(functions_with_a_class(&wrapper, "Session") > 20);
     assert!(functions_with_a_class(&wrapper, "Device") > 5);
+    assert!(functions_with_a_class(&wrapper, "Scene") > 10);
 }
 
 fn functions_with_a_class(wrapper: &str, class: &str) -> u32 {
-    let begin = format!("\nclass {class} {{");
+    let begin = format!("\nclass {class} ");
     let class = wrapper.split_once(&begin).unwrap().1.split_once("private:").unwrap().0;
     let (mut comment, mut functions) = (String::new(), 0);
     for line in class.lines().map(str::trim) {

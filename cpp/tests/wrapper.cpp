@@ -23,12 +23,18 @@ static int failed = 0;
         } \
     } while (false)
 
+using hapflow::Box;
 using hapflow::Config;
 using hapflow::Device;
 using hapflow::DeviceConfig;
 using hapflow::Error;
+using hapflow::Obstacle;
+using hapflow::Scene;
 using hapflow::Session;
+using hapflow::Shape;
+using hapflow::Source;
 using hapflow::Tick;
+using hapflow::Tool;
 using hapflow::ToolState;
 using hapflow::Vec3;
 using hapflow::Wrench;
@@ -41,9 +47,12 @@ static_assert(!std::is_copy_constructible_v<Device> && !std::is_copy_assignable_
 static_assert(std::is_nothrow_move_constructible_v<Device> && std::is_nothrow_move_assignable_v<Device>);
 static_assert(noexcept(std::declval<Device&>().read(0, std::declval<ToolState&>())));
 static_assert(noexcept(std::declval<Device&>().write(Wrench{}, 0)));
+static_assert(!std::is_copy_constructible_v<Scene> && !std::is_copy_assignable_v<Scene>);
+static_assert(std::is_nothrow_move_constructible_v<Scene> && std::is_nothrow_move_assignable_v<Scene>);
 static_assert(std::is_nothrow_copy_constructible_v<Error> && std::is_base_of_v<std::runtime_error, Error>);
 static_assert(noexcept(std::declval<Session&>().tick(ToolState{})));
 static_assert(noexcept(std::declval<Session&>().emergency_stop()));
+static_assert(noexcept(std::declval<Session&>().limit_force(1, 1)));
 static_assert(noexcept(std::declval<Session&>().move_obstacle(0, Vec3{})));
 static_assert(noexcept(std::declval<Session&>().publish_obstacles()));
 static_assert(std::is_trivially_copyable_v<Tick> && std::is_trivially_copyable_v<ToolState>);
@@ -187,7 +196,7 @@ static void errors() {
 
 static void creation_fails_with_the_reason() {
     Config config;
-    THROWS(HAPFLOW_ERROR_SCENE, {"session: exactly one of scene and toml"}, Session{config});
+    THROWS(HAPFLOW_ERROR_SCENE, {"session: exactly one of scene, toml and built"}, Session{config});
     config.scene = "no-such-scene";
     THROWS(HAPFLOW_ERROR_NOT_FOUND, {"no-such-scene"}, Session{config});
     config.scene = std::string("tap\0", 4);
@@ -538,11 +547,162 @@ static void optional_parts() {
     CHECK(hapflow_extension("hapflow.device/999") == nullptr);
 }
 
+// The jet above, by calls.
+static Scene build_jet() {
+    Scene scene;
+    scene.set("run.duration", 0.2);
+    scene.set("run.backend", "analytic-jet");
+    scene.set("run.device", std::string("null"));
+    scene.set("gate.ramp_in", 0.02);
+    scene.set_bounds({{{-0.1, -0.12, -0.1}}, {{0.1, 0.12, 0.1}}});
+    Source tap;
+    tap.name = "tap";
+    tap.position = {0, 0.05, 0};
+    tap.speed = 1.5;
+    CHECK(scene.add(tap) == 0);
+    return scene;
+}
+
+static void scenes_are_built() {
+    Scene scene = build_jet();
+    scene.check();
+    Config config;
+    config.built = &scene;
+    Session built(config);
+    Session read = open_jet();
+    CHECK(run(built, 0, 100).wrench.force == run(read, 0, 100).wrench.force);
+
+    // What a struct says where nothing is set is what the library says.
+    Scene plain;
+    CHECK(plain.add(Source{}) == 0 && plain.add(Obstacle{}) == 0 && plain.add(Tool{}) == 1);
+    CHECK(plain.write() == "name = \"scene\"\n\n[[source]]\nname = \"0\"\n\n[[obstacle]]\nname = \"0\"\n\n"
+                           "[[tool]]\nname = \"0\"\n\n[[tool]]\nname = \"1\"\n");
+
+    // Every field arrives.
+    Source source;
+    source.name = "s";
+    source.position = {0.1, 0.2, 0.3};
+    source.direction = {1, 0, 0};
+    source.diameter = 0.03;
+    source.speed = 2;
+    source.period = 0.5;
+    source.duty = 0.25;
+    source.on = false;
+    Obstacle obstacle{"o", Shape::disc, 0.03, 0.004, {{0.1, 0, 0}}};
+    Tool tool{"t", Shape::disc, 0.02, 0.003, 0.2, 0.5, {{0, 0.1, 0}}, 2, 300, 1};
+    const Box box{{{-0.3, -0.3, -0.3}}, {{0.3, 0.3, 0.3}}};
+    Scene full;
+    CHECK(full.add(source) == 0 && full.add(obstacle) == 0 && full.add(tool) == 1);
+    CHECK(full.add_pool(box) == 0 && full.add_sink(box) == 0 && full.add_sink(box) == 1);
+    full.set_ground(-0.4);
+    full.set_container(box);
+    full.set("fluid.gravity", {0, -1.5, 0});
+    full.set("fluid.gravity", Vec3{{0, -1.6, 0}});
+    full.set("fluid.two_way", false);
+    full.add_change(0.5, "source.s.on = true\n");
+    const std::string text = full.write();
+    for (const char* part :
+         {"direction = [1, 0, 0]", "diameter = 0.03", "speed = 2", "period = 0.5", "duty = 0.25", "on = false",
+          "shape = \"disc\"", "radius = 0.03", "thickness = 0.004", "position = [0.1, 0, 0]", "thickness = 0.003",
+          "mass = 0.2", "collision_response = 0.5", "force_scale = 2", "solid_stiffness = 300", "solid_damping = 1",
+          "ground = -0.4", "[container]", "[[pool]]", "gravity = [0, -1.6, 0]", "two_way = false", "source.s.on = true"}) {
+        CHECK(text.find(part) != std::string::npos);
+    }
+    CHECK(Scene::parse(text).write() == text);
+    full.clear_ground();
+    full.clear_container();
+    CHECK(full.write().find("ground") == std::string::npos && full.write().find("[container]") == std::string::npos);
+    CHECK(Scene::load("tap").write().find("name = \"tap\"") == 0);
+}
+
+static void scenes_refuse_and_move() {
+    Scene scene = build_jet();
+    const std::string before = scene.write();
+    Source tap;
+    tap.name = "tap";
+    THROWS(HAPFLOW_ERROR_VALUE, {"add source: source.name = \"tap\""}, scene.add(tap));
+    tap.name = std::string("t\0p", 3);
+    THROWS(HAPFLOW_ERROR_TEXT, {"NUL"}, scene.add(tap));
+    THROWS(HAPFLOW_ERROR_VALUE, {"add_pool: pool.min"}, scene.add_pool({{{1, 1, 1}}, {{0, 0, 0}}}));
+    THROWS(HAPFLOW_ERROR_FIXED, {"add_change: "}, scene.add_change(1, "run.fluid_hz = 60"));
+    THROWS(HAPFLOW_ERROR_NOT_FINITE, {"set_ground"}, scene.set_ground(HUGE_VAL));
+    THROWS(HAPFLOW_ERROR_SETTING, {"set: "}, scene.set("fluid.viscosty", 1));
+    THROWS(HAPFLOW_ERROR_NOT_FOUND, {"load: "}, static_cast<void>(Scene::load("tapp")));
+    THROWS(HAPFLOW_ERROR_SCENE, {"parse: toml:1"}, static_cast<void>(Scene::parse("[fluid\n")));
+    CHECK(scene.write() == before);
+    scene.set("fluid.viscosity", 9000);
+    THROWS(HAPFLOW_ERROR_VALUE, {"check: fluid.viscosity is too high"}, scene.check());
+
+    const hapflow_scene handle = scene.handle();
+    Scene other(std::move(scene));
+    CHECK(other.handle().id == handle.id && scene.handle().id == 0); // on purpose: one that was moved from
+    THROWS(HAPFLOW_ERROR_HANDLE, {"write"}, static_cast<void>(scene.write()));
+    scene = Scene::load("tank");
+    other = std::move(scene);
+    CHECK(hapflow_scene_check(handle) == HAPFLOW_ERROR_HANDLE && other.write().find("tank") != std::string::npos);
+    // None is left behind, not even by those that throw.
+    std::vector<Scene> all;
+    while (all.size() + 1 < HAPFLOW_MAX_SCENES) {
+        all.emplace_back();
+    }
+    THROWS(HAPFLOW_ERROR_FULL, {"scene: "}, Scene());
+}
+
+static void solids_are_felt_and_forces_limited() {
+    Scene scene = build_jet();
+    scene.set_ground(-0.02);
+    scene.set("tool.solid_stiffness", 400);
+    Config config;
+    config.built = &scene;
+    Session session(config);
+    ToolState state;
+    for (int n = 0; n <= 20; n++) {
+        state.time_s = n * 1e-3;
+        state.position[1] = -0.001 * n;
+        session.fluid_advance(state.time_s);
+        CHECK(session.tick(state).ok());
+    }
+    const std::vector<hapflow::Contact> contacts = session.contacts();
+    CHECK(contacts.size() == 1 && contacts[0].solid == HAPFLOW_SOLID_GROUND);
+    CHECK(contacts.size() == 1 && std::abs(contacts[0].force[1] - 400 * 0.015) < 1e-9);
+    CHECK(std::abs(session.proxy().position[1] + 0.005) < 1e-9 && session.proxy().orientation[3] == 1);
+    THROWS(HAPFLOW_ERROR_INDEX, {"contacts: no tool 1"}, static_cast<void>(session.contacts(1)));
+    THROWS(HAPFLOW_ERROR_INDEX, {"proxy: no tool 1"}, static_cast<void>(session.proxy(1)));
+    CHECK(session.limit_force(0.5, 0.05) == HAPFLOW_OK);
+    CHECK(session.limit_force(0.6, 0.05) == HAPFLOW_ERROR_VALUE);
+    for (int n = 21; n < 100; n++) {
+        state.time_s = n * 1e-3;
+        session.fluid_advance(state.time_s);
+        CHECK(std::abs(session.tick(state).wrench.force[1]) <= 0.5);
+    }
+    CHECK(session.get("gate.max_force") == 0.5);
+}
+
+static void ticks_are_recorded() {
+    Config config;
+    config.toml = jet;
+    config.record = true;
+    Session session(config);
+    THROWS(HAPFLOW_ERROR_RECORDING, {"record_stop: "}, session.record_stop());
+    THROWS(HAPFLOW_ERROR_FILE, {"record: /nowhere/at/all.csv: "}, session.record("/nowhere/at/all.csv"));
+    session.record("/dev/null");
+    CHECK(run(session, 0, 50).ok());
+    const hapflow::Recorded recorded = session.record_stop();
+    CHECK(recorded.ticks == 50 && recorded.lost == 0);
+    Session without = open_jet();
+    THROWS(HAPFLOW_ERROR_RECORDING, {"record: "}, without.record("/dev/null"));
+}
+
 // Everything of `session` is refused, and nothing of it pushes.
 static void gone(Session& session) {
     const Tick tick = session.tick(ToolState{});
     CHECK(tick.result == HAPFLOW_ERROR_HANDLE && !tick.ok() && zero(tick.wrench));
     CHECK(session.emergency_stop() == HAPFLOW_ERROR_HANDLE);
+    CHECK(session.limit_force(1, 1) == HAPFLOW_ERROR_HANDLE);
+    THROWS(HAPFLOW_ERROR_HANDLE, {"contacts"}, static_cast<void>(session.contacts()));
+    THROWS(HAPFLOW_ERROR_HANDLE, {"proxy"}, static_cast<void>(session.proxy()));
+    THROWS(HAPFLOW_ERROR_HANDLE, {"record"}, session.record("/dev/null"));
+    THROWS(HAPFLOW_ERROR_HANDLE, {"record_stop"}, session.record_stop());
     THROWS(HAPFLOW_ERROR_HANDLE, {"clear_faults"}, session.clear_faults());
     THROWS(HAPFLOW_ERROR_HANDLE, {"fluid_advance"}, session.fluid_advance(0));
     THROWS(HAPFLOW_ERROR_HANDLE, {"fluid_step"}, session.fluid_step(1));
@@ -659,6 +819,10 @@ int main() {
     a_session_that_ticks_its_servo();
     a_session_tells_its_log();
     optional_parts();
+    scenes_are_built();
+    scenes_refuse_and_move();
+    solids_are_felt_and_forces_limited();
+    ticks_are_recorded();
     three_threads_on_one_session();
     moves_and_lives();
     std::printf(failed == 0 ? "all passed\n" : "%d failed\n", failed);

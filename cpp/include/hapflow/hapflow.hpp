@@ -52,6 +52,8 @@ using SceneInfo = hapflow_scene_info;
 using DeviceInfo = hapflow_device_info;
 /// How an owned servo keeps time: see hapflow_servo_pace. Its texts last as long as the session.
 using ServoPace = hapflow_servo_pace;
+/// What a tool touches: see hapflow_contact.
+using Contact = hapflow_contact;
 
 /// A function of the library failed. what() tells all of it: the function, its argument, the result, the detail.
 class Error : public std::runtime_error {
@@ -137,9 +139,71 @@ std::vector<Info> all(std::uint32_t count, Init init, Get get) {
     return infos;
 }
 
+/// The ways to set a setting, which a session and a scene have in common. [main] `Owner` has set_number, set_vector and
+/// set_text. A session takes live settings only, a scene all.
+template <class Owner>
+class Settable {
+public:
+    /// Sets a setting to a number, or a switch to true or false. [main]
+    template <class T, std::enable_if_t<std::is_arithmetic_v<T>, int> = 0>
+    void set(const std::string& path, T value) {
+        if constexpr (std::is_same_v<T, bool>) {
+            set(path, std::string(value ? "true" : "false"));
+        } else {
+            check_main(owner().set_number(c_text(path, "set"), static_cast<double>(value)), "set");
+        }
+    }
+
+    /// Sets any setting, with its value as a command line has it: "true", "1.5", "[0, -9.81, 0]", "wcsph". [main]
+    void set(const std::string& path, const std::string& value) {
+        const char* c_path = c_text(path, "set");
+        check_main(owner().set_text(c_path, c_text(value, "set")), "set");
+    }
+
+    /// The same for a literal, which would else be taken for a bool. [main]
+    void set(const std::string& path, const char* value) { set(path, std::string(value)); }
+
+    /// Sets a setting to three numbers. [main]
+    void set(const std::string& path, const Vec3& value) {
+        check_main(owner().set_vector(c_text(path, "set"), value.data()), "set");
+    }
+
+    /// The same, written out: set("fluid.gravity", {0, -9.81, 0}). [main]
+    template <std::size_t N>
+    void set(const std::string& path, const double (&value)[N]) {
+        static_assert(N == 3, "x, y and z");
+        set(path, Vec3{{value[0], value[1], value[2]}});
+    }
+
+private:
+    [[nodiscard]] Owner& owner() noexcept { return static_cast<Owner&>(*this); }
+};
+
 template <class T>
 constexpr std::uint32_t size_of() noexcept {
     return static_cast<std::uint32_t>(sizeof(T));
+}
+
+/// A struct of the library as its init function makes it: what this wrapper does not know keeps its default.
+template <class T>
+T made(hapflow_result (*init)(T*, std::uint32_t)) {
+    T made{};
+    check(init(&made, size_of<T>()), "init");
+    return made;
+}
+
+template <std::size_t N>
+void copy(const std::array<double, N>& from, double (&to)[N]) noexcept {
+    for (std::size_t i = 0; i < N; i++) {
+        to[i] = from[i];
+    }
+}
+
+template <std::size_t N>
+void copy(const double (&from)[N], std::array<double, N>& to) noexcept {
+    for (std::size_t i = 0; i < N; i++) {
+        to[i] = from[i];
+    }
 }
 
 } // namespace detail
@@ -201,11 +265,225 @@ template <class Table>
     return static_cast<const Table*>(hapflow_extension(detail::Part<Table>::name));
 }
 
-/// How a session is made. Exactly one of `scene` and `toml` is given.
+/// A box with edges along the axes.
+struct Box {
+    Vec3 min{}; ///< Corner of the smallest coordinates, m, each within 100.
+    Vec3 max{}; ///< Corner of the largest.
+};
+
+/// Shape of an obstacle or a tool.
+enum class Shape : std::uint32_t {
+    sphere = HAPFLOW_SHAPE_SPHERE, ///< A ball.
+    disc = HAPFLOW_SHAPE_DISC,     ///< A flat round plate, its axis up.
+};
+
+/// A jet. By default 20 mm straight down at 1 m/s from the origin.
+struct Source {
+    std::string name;            ///< By which settings address it; empty: its number.
+    Vec3 position{};             ///< Centre of the outlet, m.
+    Vec3 direction{{0, -1, 0}};  ///< Of the jet, of any length but 0.
+    double diameter = 0.02;      ///< Of the outlet, m.
+    double speed = 1;            ///< At the outlet, m/s.
+    double period = 0;           ///< Of an intermittent jet, s; 0: it runs steadily.
+    double duty = 1;             ///< Share of the period in which it runs.
+    bool on = true;              ///< It runs.
+};
+
+/// Something solid. By default a ball of 20 mm radius in the origin.
+struct Obstacle {
+    std::string name;            ///< By which settings address it; empty: its number.
+    Shape shape = Shape::sphere; ///< Its shape.
+    double radius = 0.02;        ///< m.
+    double thickness = 0.01;     ///< Of a disc, m.
+    Vec3 position{};             ///< Until the host moves it, m.
+};
+
+/// A tool in a hand. By default a ball of 15 mm radius in the origin.
+struct Tool {
+    std::string name;                ///< By which settings address it; empty: its number.
+    Shape shape = Shape::sphere;     ///< Its shape.
+    double radius = 0.015;           ///< m.
+    double thickness = 0.01;         ///< Of a disc, m.
+    double mass = 0.1;               ///< Of its body in the fluid (coupling momentum), kg.
+    double collision_response = 0.2; ///< Share of the fluid's impulse that it takes (coupling momentum).
+    Vec3 position{};                 ///< Where it starts, m.
+    double force_scale = 1;          ///< Factor on the fluid's force.
+    double solid_stiffness = 0;      ///< How stiff solids feel, N/m; 0: they are not felt.
+    double solid_damping = 0;        ///< How much they slow it, N s/m.
+};
+
+/// A scene that is built by calls, each checked by itself. A session copies it. Owns the scene of the C interface, and
+/// destroys it.
+class Scene : public detail::Settable<Scene> {
+public:
+    /// An empty one: no fluid yet, and one tool, whose settings are tool.radius and so on. [main, several at once]
+    Scene() {
+        negotiate();
+        detail::check_main(hapflow_scene_create(&scene_), "scene");
+    }
+
+    /// A shipped one, by its name, or that of a file, by its path. [main, several at once]
+    [[nodiscard]] static Scene load(const std::string& name) {
+        negotiate();
+        Scene scene{nullptr};
+        detail::check_main(hapflow_scene_load(detail::c_text(name, "load"), &scene.scene_), "load");
+        return scene;
+    }
+
+    /// That of the text of a scene file. [main, several at once]
+    [[nodiscard]] static Scene parse(const std::string& toml) {
+        negotiate();
+        Scene scene{nullptr};
+        detail::check_main(hapflow_scene_parse(toml.c_str(), toml.size(), &scene.scene_), "parse");
+        return scene;
+    }
+
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+
+    /// Leaves a null scene in `other`: all that it does fails with HAPFLOW_ERROR_HANDLE. [any] But this thread must have
+    /// both for itself, as for every move.
+    Scene(Scene&& other) noexcept : scene_(std::exchange(other.scene_, hapflow_scene{})) {}
+
+    /// Destroys what it had, and takes over the other's. [main] This thread must have both for itself.
+    Scene& operator=(Scene&& other) noexcept {
+        if (this != &other) {
+            end();
+            scene_ = std::exchange(other.scene_, hapflow_scene{});
+        }
+        return *this;
+    }
+
+    /// Ends the scene; sessions that were made of it go on. [main]
+    ~Scene() { end(); }
+
+    /// For functions of hapflow.h that are not here. Never destroy it. [any]
+    [[nodiscard]] hapflow_scene handle() const noexcept { return scene_; }
+
+    /// Sets the box outside of which particles vanish. [main]
+    void set_bounds(const Box& box) {
+        detail::check_main(hapflow_scene_set_bounds(scene_, box.min.data(), box.max.data()), "set_bounds");
+    }
+
+    /// Sets the height of the ground, m. [main]
+    void set_ground(double height) { detail::check_main(hapflow_scene_set_ground(scene_, &height), "set_ground"); }
+
+    /// Takes the ground away. [main]
+    void clear_ground() { detail::check_main(hapflow_scene_set_ground(scene_, nullptr), "clear_ground"); }
+
+    /// Sets the inside of the open box. [main]
+    void set_container(const Box& box) {
+        const hapflow_result result = hapflow_scene_set_container(scene_, box.min.data(), box.max.data());
+        detail::check_main(result, "set_container");
+    }
+
+    /// Takes the open box away. [main]
+    void clear_container() {
+        detail::check_main(hapflow_scene_set_container(scene_, nullptr, nullptr), "clear_container");
+    }
+
+    /// Adds a source, and gives its number. [main]
+    std::uint32_t add(const Source& source) {
+        auto c = detail::made(hapflow_source_config_init);
+        c.name = detail::c_text_or_null(source.name, "add source");
+        detail::copy(source.position, c.position);
+        detail::copy(source.direction, c.direction);
+        c.diameter = source.diameter;
+        c.speed = source.speed;
+        c.period = source.period;
+        c.duty = source.duty;
+        c.on = source.on ? 1 : 0;
+        std::uint32_t index = 0;
+        detail::check_main(hapflow_scene_add_source(scene_, &c, &index), "add source");
+        return index;
+    }
+
+    /// Adds an obstacle, and gives its number, as Session::move_obstacle counts them. [main]
+    std::uint32_t add(const Obstacle& obstacle) {
+        auto c = detail::made(hapflow_obstacle_config_init);
+        c.name = detail::c_text_or_null(obstacle.name, "add obstacle");
+        c.shape = static_cast<std::uint32_t>(obstacle.shape);
+        c.radius = obstacle.radius;
+        c.thickness = obstacle.thickness;
+        detail::copy(obstacle.position, c.position);
+        std::uint32_t index = 0;
+        detail::check_main(hapflow_scene_add_obstacle(scene_, &c, &index), "add obstacle");
+        return index;
+    }
+
+    /// Adds a tool to the first, which every scene has, and gives its number, from 1. [main]
+    std::uint32_t add(const Tool& tool) {
+        auto c = detail::made(hapflow_tool_config_init);
+        c.name = detail::c_text_or_null(tool.name, "add tool");
+        c.shape = static_cast<std::uint32_t>(tool.shape);
+        c.radius = tool.radius;
+        c.thickness = tool.thickness;
+        c.mass = tool.mass;
+        c.collision_response = tool.collision_response;
+        detail::copy(tool.position, c.position);
+        c.force_scale = tool.force_scale;
+        c.solid_stiffness = tool.solid_stiffness;
+        c.solid_damping = tool.solid_damping;
+        std::uint32_t index = 0;
+        detail::check_main(hapflow_scene_add_tool(scene_, &c, &index), "add tool");
+        return index;
+    }
+
+    /// Adds a box filled with fluid at the start, and gives its number. [main]
+    std::uint32_t add_pool(const Box& box) { return add_box(hapflow_scene_add_pool, box, "add_pool"); }
+
+    /// Adds a box in which particles vanish, and gives its number. [main]
+    std::uint32_t add_sink(const Box& box) { return add_box(hapflow_scene_add_sink, box, "add_sink"); }
+
+    /// Adds new values for live settings, lines `path = value`, at a time of the run, s. [main]
+    void add_change(double at_s, const std::string& settings) {
+        const char* c_settings = detail::c_text(settings, "add_change");
+        detail::check_main(hapflow_scene_add_change(scene_, at_s, c_settings), "add_change");
+    }
+
+    /// Throws what a session of it would throw, if it cannot be run. [main]
+    void check() const { detail::check_main(hapflow_scene_check(scene_), "check"); }
+
+    /// The text of a scene file, which parse() makes an equal scene of. [main]
+    [[nodiscard]] std::string write() const {
+        return detail::whole_text([&](char* text, std::size_t capacity, std::size_t* length) {
+            detail::check_main(hapflow_scene_write(scene_, text, capacity, length), "write");
+        });
+    }
+
+private:
+    friend class detail::Settable<Scene>;
+
+    explicit Scene(std::nullptr_t) noexcept {}
+
+    // Fails only if there is no scene any more, and then there is nothing to do.
+    void end() noexcept {
+        if (scene_.id != 0) {
+            static_cast<void>(hapflow_scene_destroy(scene_));
+        }
+    }
+
+    template <class Add>
+    std::uint32_t add_box(Add c_add, const Box& box, const char* where) {
+        std::uint32_t index = 0;
+        detail::check_main(c_add(scene_, box.min.data(), box.max.data(), &index), where);
+        return index;
+    }
+
+    hapflow_result set_number(const char* path, double value) { return hapflow_scene_set(scene_, path, value); }
+    hapflow_result set_vector(const char* path, const double* v) { return hapflow_scene_set_vector(scene_, path, v); }
+    hapflow_result set_text(const char* path, const char* v) { return hapflow_scene_set_text(scene_, path, v); }
+
+    hapflow_scene scene_{};
+};
+
+/// How a session is made. Exactly one of `scene`, `toml` and `built` is given.
 struct Config {
     std::string scene;             ///< Name of a shipped scene, as "tap", or path of a scene file.
     std::string toml;              ///< Text of a scene file.
     std::string settings;          ///< Lines `path = value` that are set on top.
+    const Scene* built = nullptr;  ///< A scene that was built; it is copied, and must live only until the session is made.
+    bool record = false;           ///< Session::record may be called.
     std::uint32_t threads = 0;     ///< Worker threads of the fluid; 0: all cores but one. Results do not depend on it.
     std::uint32_t fluid_drive = 0; ///< HAPFLOW_DRIVE_HOST, or _OWNED: the session steps the fluid itself.
     std::uint32_t servo_drive = 0; ///< HAPFLOW_DRIVE_HOST, or _OWNED: the session ticks the servo itself.
@@ -240,31 +518,6 @@ struct Wrench {
     Vec3 torque{}; ///< N m, about the tool's position.
 };
 
-namespace detail {
-
-template <std::size_t N>
-void copy(const std::array<double, N>& from, double (&to)[N]) noexcept {
-    for (std::size_t i = 0; i < N; i++) {
-        to[i] = from[i];
-    }
-}
-
-template <std::size_t N>
-void copy(const double (&from)[N], std::array<double, N>& to) noexcept {
-    for (std::size_t i = 0; i < N; i++) {
-        to[i] = from[i];
-    }
-}
-
-/// What the library takes for a tool at rest: fields that are not here keep theirs.
-inline hapflow_tool_state blank_state() {
-    hapflow_tool_state blank{};
-    check(hapflow_tool_state_init(&blank, size_of<hapflow_tool_state>()), "tool state");
-    return blank;
-}
-
-} // namespace detail
-
 /// A haptic device for a loop of the host, behind a safety gate of its own; or to be given to a Session. Owns the
 /// device of the C interface, and closes it.
 class Device {
@@ -272,15 +525,13 @@ public:
     /// Opens a device. [main, several at once]
     explicit Device(const DeviceConfig& config) {
         negotiate();
-        hapflow_device_config c{};
-        const hapflow_result made = hapflow_device_config_init(&c, detail::size_of<hapflow_device_config>());
-        detail::check(made, "device config");
+        auto c = detail::made(hapflow_device_config_init);
         c.name = detail::c_text_or_null(config.name, "name");
         c.scene = detail::c_text_or_null(config.scene, "scene");
         c.toml = config.toml.empty() ? nullptr : config.toml.data();
         c.toml_length = config.toml.size();
         c.settings = detail::c_text_or_null(config.settings, "settings");
-        blank_ = detail::blank_state();
+        blank_ = detail::made(hapflow_tool_state_init);
         detail::check_main(hapflow_device_open(&c, &device_), "device");
     }
 
@@ -365,6 +616,18 @@ struct [[nodiscard]] Tick {
     [[nodiscard]] const char* text() const noexcept { return hapflow_result_text(result); }
 };
 
+/// Where something is, in the scene's frame.
+struct Pose {
+    Vec3 position{};                                 ///< m.
+    std::array<double, 4> orientation{{0, 0, 0, 1}}; ///< Unit quaternion x, y, z, w.
+};
+
+/// What a recording came to.
+struct Recorded {
+    std::uint64_t ticks = 0; ///< Ticks that were written, of all tools.
+    std::uint64_t lost = 0;  ///< Ticks that are missing: they came faster than the file took them.
+};
+
 /// A setting of a session, with all that a panel needs to show it: see hapflow_setting_info.
 struct Setting {
     std::uint32_t kind = 0;           ///< HAPFLOW_SETTING_...
@@ -381,23 +644,24 @@ struct Setting {
 
 /// A scene, its fluid and its tools; the host ticks them and steps the fluid, or lets the session do so. Owns the
 /// session of the C interface, and destroys it.
-class Session {
+class Session : public detail::Settable<Session> {
 public:
     /// Makes a session: milliseconds to seconds, as the scene has particles. [main, several at once]
     explicit Session(const Config& config) : Session(config, std::vector<Device>()) {}
 
     /// The same with devices for a servo that the session ticks, in the order of the scene's tools. [main, several at
     /// once] It takes them over; if it throws they are as they were.
-    Session(const Config& config, std::vector<Device>&& devices) : blank_(detail::blank_state()) {
+    Session(const Config& config, std::vector<Device>&& devices) : blank_(detail::made(hapflow_tool_state_init)) {
         negotiate();
-        hapflow_session_config c{};
-        detail::check(hapflow_session_config_init(&c, detail::size_of<hapflow_session_config>()), "config");
+        auto c = detail::made(hapflow_session_config_init);
         c.scene = detail::c_text_or_null(config.scene, "scene");
         c.toml = config.toml.empty() ? nullptr : config.toml.data();
         c.toml_length = config.toml.size();
         c.settings = detail::c_text_or_null(config.settings, "settings");
         c.threads = config.threads;
         c.fluid_drive = config.fluid_drive;
+        c.record = config.record ? 1 : 0;
+        c.built = config.built != nullptr ? config.built->handle() : hapflow_scene{};
         c.servo_drive = config.servo_drive;
         std::vector<hapflow_device> handles;
         for (const Device& device : devices) {
@@ -483,6 +747,47 @@ public:
     /// the device is safe should lead to this call.
     void clear_faults() { detail::check(hapflow_session_clear_faults(session_), "clear_faults"); }
 
+    /// From the next tick on, no force on any tool is larger than `max_force` (N), and no torque than `max_torque` (N m):
+    /// for good, for such a limit can be lowered and never raised. [any] Gives the result.
+    hapflow_result limit_force(double max_force, double max_torque) noexcept {
+        return hapflow_session_limit_force(session_, max_force, max_torque);
+    }
+
+    /// What a tool touched at its newest tick; nothing where solids are not felt. [main]
+    [[nodiscard]] std::vector<Contact> contacts(std::uint32_t tool = 0) const {
+        std::vector<Contact> contacts(HAPFLOW_MAX_CONTACTS);
+        std::size_t count = 0;
+        const hapflow_result result = hapflow_session_contacts(session_, tool, contacts.data(),
+                                                               detail::size_of<Contact>(), contacts.size(), &count);
+        detail::check_main(result, "contacts");
+        contacts.resize(count < contacts.size() ? count : contacts.size());
+        return contacts;
+    }
+
+    /// Where a tool is to be drawn: in no wall, wherever its hand is. [main]
+    [[nodiscard]] Pose proxy(std::uint32_t tool = 0) const {
+        Pose pose;
+        const hapflow_result result =
+            hapflow_session_proxy(session_, tool, pose.position.data(), pose.orientation.data());
+        detail::check_main(result, "proxy");
+        return pose;
+    }
+
+    // -------------------------------------------------------------------------------------------- recording
+
+    /// Writes every tick of every tool to a CSV file from now on; Config::record was true. [main] `path` is the first
+    /// tool's file; any other's has its number before the extension.
+    void record(const std::string& path) {
+        detail::check_main(hapflow_session_record(session_, detail::c_text(path, "record")), "record");
+    }
+
+    /// Ends the recording with the newest tick. [main] Waits for the file.
+    Recorded record_stop() {
+        Recorded recorded;
+        detail::check_main(hapflow_session_record_stop(session_, &recorded.ticks, &recorded.lost), "record_stop");
+        return recorded;
+    }
+
     // -------------------------------------------------------------------------------------------- fluid
 
     /// Steps every fluid frame that has ended by `time_s` on the servo's clock. [fluid]
@@ -543,40 +848,6 @@ public:
 
     // -------------------------------------------------------------------------------------------- settings
 
-    /// Sets a live setting to a number, or a switch to true or false. [main]
-    template <class T, std::enable_if_t<std::is_arithmetic_v<T>, int> = 0>
-    void set(const std::string& path, T value) {
-        if constexpr (std::is_same_v<T, bool>) {
-            set(path, std::string(value ? "true" : "false"));
-        } else {
-            const char* c_path = detail::c_text(path, "set");
-            detail::check_main(hapflow_session_set(session_, c_path, static_cast<double>(value)), "set");
-        }
-    }
-
-    /// Sets any live setting, with its value as a command line has it: "true", "1.5", "[0, -9.81, 0]", "wcsph".
-    /// [main]
-    void set(const std::string& path, const std::string& value) {
-        const char* c_path = detail::c_text(path, "set");
-        detail::check_main(hapflow_session_set_text(session_, c_path, detail::c_text(value, "set")), "set");
-    }
-
-    /// The same for a literal, which would else be taken for a bool. [main]
-    void set(const std::string& path, const char* value) { set(path, std::string(value)); }
-
-    /// Sets a live setting to three numbers. [main]
-    void set(const std::string& path, const Vec3& value) {
-        const char* c_path = detail::c_text(path, "set");
-        detail::check_main(hapflow_session_set_vector(session_, c_path, value.data()), "set");
-    }
-
-    /// The same, written out: set("fluid.gravity", {0, -9.81, 0}). [main]
-    template <std::size_t N>
-    void set(const std::string& path, const double (&value)[N]) {
-        static_assert(N == 3, "x, y and z");
-        set(path, Vec3{{value[0], value[1], value[2]}});
-    }
-
     /// Reads a setting: get<double>, get<bool>, get<Vec3>, or get<std::string>, which reads all of them. [main] A
     /// setting of another type throws an Error with HAPFLOW_ERROR_VALUE.
     template <class T = double>
@@ -606,8 +877,7 @@ public:
         detail::check_main(hapflow_session_setting_count(session_, &count), "settings");
         std::vector<Setting> settings(count);
         for (std::uint32_t index = 0; index < count; index++) {
-            hapflow_setting_info c{};
-            detail::check(hapflow_setting_info_init(&c, detail::size_of<hapflow_setting_info>()), "settings");
+            auto c = detail::made(hapflow_setting_info_init);
             detail::check_main(hapflow_session_setting_info(session_, index, &c), "settings");
             std::vector<std::string> choices;
             std::istringstream lines(c.choices);
@@ -622,16 +892,14 @@ public:
 
     /// Reads the newest tick of a tool, and the newest frame. [main] Never waits for either.
     [[nodiscard]] Report report(std::uint32_t tool = 0) const {
-        Report report{};
-        detail::check(hapflow_report_init(&report, detail::size_of<Report>()), "report");
+        auto report = detail::made(hapflow_report_init);
         detail::check_main(hapflow_session_report_of(session_, tool, &report), "report");
         return report;
     }
 
     /// How the servo of a tool keeps time, if the session ticks it. [main] Never waits for it.
     [[nodiscard]] ServoPace servo_pace(std::uint32_t tool = 0) const {
-        ServoPace pace{};
-        detail::check(hapflow_servo_pace_init(&pace, detail::size_of<ServoPace>()), "servo_pace");
+        auto pace = detail::made(hapflow_servo_pace_init);
         detail::check_main(hapflow_session_servo_pace(session_, tool, &pace), "servo_pace");
         return pace;
     }
@@ -666,6 +934,14 @@ private:
             static_cast<void>(hapflow_session_destroy(session_));
         }
     }
+
+    friend class detail::Settable<Session>;
+
+    hapflow_result set_number(const char* path, double value) { return hapflow_session_set(session_, path, value); }
+    hapflow_result set_vector(const char* path, const double* v) {
+        return hapflow_session_set_vector(session_, path, v);
+    }
+    hapflow_result set_text(const char* path, const char* v) { return hapflow_session_set_text(session_, path, v); }
 
     [[nodiscard]] std::string get_text(const std::string& path) const {
         const char* c_path = detail::c_text(path, "get");
