@@ -188,6 +188,16 @@ fn a_full_disc_is_told_at_the_end_and_harms_no_tick() {
 }
 
 #[test]
+#[cfg(target_os = "linux")]
+fn a_run_whose_file_is_full_ends_with_the_reason() {
+    let mut progress = |_: hapflow::engine::run::Progress<'_>| ControlFlow::Continue(());
+    let record = Some(Path::new("/dev/full"));
+    let options = RunOptions { threads: 1, pictures_at: &[], record, progress: &mut progress };
+    let told = virtual_clock(&quick(), options).unwrap_err().to_string();
+    assert!(told.starts_with("/dev/full: No space left on device"), "{told}");
+}
+
+#[test]
 fn a_whole_run_is_written_as_it_goes_and_as_at_its_end() {
     let (streamed, whole) = (file("streamed.csv"), file("whole.csv"));
     let mut progress = |_: hapflow::engine::run::Progress<'_>| ControlFlow::Continue(());

@@ -140,6 +140,25 @@ fn a_plate_that_is_swung_through_the_tool_takes_it_along() {
 }
 
 #[test]
+fn a_plate_that_the_host_turns_takes_the_tool_along() {
+    let mut hand = Hand::new(&dry(&[]));
+    // Above the plate, near its edge, which then comes up: a quarter turn in a fluid frame.
+    let place = DVec3::new(0.12, 0.115, 0.0);
+    hand.at(place);
+    hand.go(place, 30);
+    let turn = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
+    assert!(hand.mover.set(0, DVec3::new(0.1, 0.1, 0.0), turn));
+    hand.mover.publish();
+    for _ in 0..40 {
+        hand.at(place);
+    }
+    let touching = hand.touching();
+    // The plate stands, and the tool is on the side that was its upper one.
+    close(touching.proxy, DVec3::new(0.1 - 0.011, 0.115, 0.0));
+    close(touching.contacts()[0].normal, DVec3::NEG_X);
+}
+
+#[test]
 fn after_a_fault_the_tool_is_where_the_hand_is() {
     let mut hand = Hand::new(&dry(&[]));
     let below = DVec3::new(0.1, 0.05, 0.0);

@@ -23,7 +23,7 @@ enum {
 typedef struct hapflow_contact {
     uint32_t solid; /* HAPFLOW_SOLID_... */
     uint32_t index; /* which of them, from 0 */
-    double depth; /* how far the hand is behind the surface's hold, along the normal, m */
+    double depth; /* how far the hand is beyond where the solid lets the tool be, along the normal, m */
     double point[3]; /* where, on the surface, m */
     double normal[3]; /* unit vector, outward from the solid */
     double force[3]; /* on the hand, before the gate, N */

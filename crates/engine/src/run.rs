@@ -119,7 +119,7 @@ pub fn virtual_clock(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, 
         let wrench = servo.tick(&state, time_s, TICK_S);
         run.outcome.timing.ticks.add(before.elapsed().as_nanos() as u64);
         device.write(wrench, TICK_S)?;
-        run.record(servo.newest())?;
+        run.record(servo.newest());
         if pictures.next_if(|at| **at <= time_s).is_some() {
             let mut particles = ParticleView::default();
             fluid.snapshot(&mut particles);
@@ -164,7 +164,7 @@ pub fn real_time(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, Scen
     loop {
         std::thread::sleep(Duration::from_millis(20));
         while let Some(report) = tape.pop() {
-            run.record(&report)?;
+            run.record(&report);
         }
         let newest = session.report();
         if pictures.next_if(|at| **at <= newest.time_s).is_some() {
@@ -182,7 +182,7 @@ pub fn real_time(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, Scen
     // Refused or not, nothing is locked any more.
     let _ = unlock_memory();
     while let Some(report) = tape.pop() {
-        run.record(&report)?;
+        run.record(&report);
     }
     run.outcome.timing.ticks = ticks;
     run.outcome.realtime = Some((status, pace));
@@ -196,6 +196,8 @@ struct Run {
     wall: Instant,
     cpu_s: f64,
     file: Option<TickWriter>,
+    /// Why the file could not be written on: the run ends then.
+    failed: Option<SceneError>,
 }
 
 impl Run {
@@ -213,13 +215,21 @@ impl Run {
             wall: Instant::now(),
             cpu_s: process_cpu_s(),
             file: record.map(TickWriter::create).transpose()?,
+            failed: None,
         })
     }
 
-    fn record(&mut self, report: &ServoReport) -> Result<(), SceneError> {
+    fn record(&mut self, report: &ServoReport) {
         self.outcome.faults |= report.faults;
         self.outcome.recording.rows.push(*report);
-        self.file.as_mut().map_or(Ok(()), |file| file.write(report))
+        self.write(|file| file.write(report));
+    }
+
+    /// Does something with the file, if there is one.
+    fn write(&mut self, act: impl FnOnce(&mut TickWriter) -> Result<(), SceneError>) {
+        if let Some(Err(error)) = self.file.as_mut().map(act) {
+            self.failed.get_or_insert(error);
+        }
     }
 
     fn take_picture(&mut self, session: &Session, answered: u64, servo: ServoReport) -> u64 {
@@ -235,18 +245,17 @@ impl Run {
     /// True when the run is to end.
     fn tell(&self, fluid: &FluidReport, told: &mut dyn FnMut(Progress<'_>) -> ControlFlow<()>) -> bool {
         let Some(servo) = self.outcome.recording.rows.last() else { return false };
-        told(Progress { time_s: servo.time_s, duration_s: self.duration_s, servo, fluid }).is_break()
+        let progress = Progress { time_s: servo.time_s, duration_s: self.duration_s, servo, fluid };
+        self.failed.is_some() || told(progress).is_break()
     }
 
     fn end(mut self, fluid: FluidReport) -> Result<Outcome, SceneError> {
-        if let Some(file) = &mut self.file {
-            file.flush()?;
-        }
+        self.write(TickWriter::flush);
         let timing = &mut self.outcome.timing;
         timing.simulated_s = self.outcome.recording.rows.last().map_or(0.0, |r| r.time_s + TICK_S);
         timing.wall_s = self.wall.elapsed().as_secs_f64();
         timing.cpu_s = process_cpu_s() - self.cpu_s;
         self.outcome.fluid = fluid;
-        Ok(self.outcome)
+        self.failed.map_or(Ok(self.outcome), Err)
     }
 }

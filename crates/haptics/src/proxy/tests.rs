@@ -177,6 +177,48 @@ fn a_damper_slows_and_never_holds() {
     close(felt(v(0.3, -0.1, 0.0)).velocity, v(0.3, 0.0, 0.0));
 }
 
+/// splitmix64, as numbers from -1 to 1.
+fn random(state: &mut u64) -> f64 {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let z = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}
+
+#[test]
+fn however_a_hand_moves_the_proxy_is_in_no_solid_and_every_contact_pushes_out() {
+    let mut touched = 0;
+    for seed in 0..60 {
+        let mut state = seed;
+        let mut vector = |size: f64| DVec3::from_array(std::array::from_fn(|_| size * random(&mut state)));
+        let mut solids: Vec<Solid> = open_box(v(-0.15, 0.0, -0.15), v(0.15, 0.08, 0.15), 0.01).into();
+        solids.push(ground(-0.05));
+        for shape in
+            [SolidShape::Sphere { radius: 0.03 }, SolidShape::Disc { radius: 0.05, thickness: 0.002 }]
+        {
+            let orientation = DQuat::from_scaled_axis(vector(3.0));
+            solids.push(obstacle(shape, Pose { position: vector(0.1) + v(0.0, 0.2, 0.0), orientation }));
+        }
+        let mut proxy = Proxy::default();
+        let mut hand = v(0.0, 0.4, 0.0);
+        for tick in 0..2000 {
+            // Mostly as a hand, at times as nothing moves.
+            hand += vector(if tick % 100 == 99 { 0.5 } else { 0.004 });
+            hand = hand.clamp(DVec3::splat(-0.3), DVec3::splat(0.4));
+            proxy.follow(hand, R, &solids);
+            let touching = proxy.touch(&ToolState::at(hand), R, &solids, FEEL);
+            let nearest = solids.iter().map(|s| s.distance(touching.proxy).0).fold(f64::INFINITY, f64::min);
+            assert!(nearest >= R - 1e-9, "seed {seed} tick {tick}: {} inside", R - nearest);
+            for contact in touching.contacts() {
+                assert!(contact.force.dot(contact.normal) >= 0.0 && contact.force.is_finite());
+                assert!((contact.normal.length() - 1.0).abs() < 1e-12);
+            }
+            touched += usize::from(!touching.contacts().is_empty());
+        }
+    }
+    assert!(touched > 10_000, "{touched}");
+}
+
 #[test]
 fn where_there_is_no_room_it_stays_and_the_force_is_finite() {
     let ceiling =
