@@ -1,7 +1,7 @@
 //! One fluid frame: newest settings, tool paths, backend, local models. Thread: fluid, one at a time.
 
 use crate::obstacles::Obstacles;
-use crate::session::Shared;
+use crate::shared::Shared;
 use crate::tool_lane::{FrameTime, ToolLane};
 use hapflow_fluid::{
     BodyDrive, BodyMotion, FluidBackend, FluidConfig, FrameInput, FrameOutput, ParticleView,

@@ -14,6 +14,7 @@
 #![forbid(unsafe_code)]
 
 mod builtin;
+mod control;
 mod error;
 mod fluid_unit;
 mod force_limit;
@@ -23,10 +24,12 @@ mod recording;
 pub mod run;
 mod scene;
 mod scene_builder;
+mod scene_device;
 mod scene_file;
 mod servo;
 mod session;
 pub mod settings;
+mod shared;
 pub mod signal;
 mod threads;
 mod tick_times;
@@ -35,6 +38,7 @@ mod touch;
 mod value;
 
 pub use builtin::{load, shipped};
+pub use control::Control;
 pub use error::SceneError;
 pub use fluid_unit::{FluidReport, FluidUnit};
 pub use obstacles::ObstacleMover;
@@ -44,9 +48,10 @@ pub use scene::{
     BackendKind, Change, DeviceKind, MAX_OBSTACLES, MAX_TOOLS, MappingSettings, MotionOrigin, Obstacle,
     RunSettings, Scene, ToolSettings, ToolShape,
 };
+pub use scene_device::open_device;
 pub use scene_file::{parse, write};
 pub use servo::{ServoReport, ServoUnit};
-pub use session::{Control, Drive, Session, SessionOptions, open_device};
+pub use session::{Drive, Session, SessionOptions};
 pub use threads::{FluidPace, SERVO_PRIORITY, ServoPace};
 pub use tick_times::TickTimes;
 pub use value::Value;

@@ -1,26 +1,25 @@
 //! A session: a scene made to run, its two halves, and what main may do with it.
 
+use crate::control::Control;
 use crate::fluid_unit::{FluidReport, FluidUnit};
-use crate::force_limit::ForceLimit;
 use crate::obstacles::{ObstacleMover, Obstacles, obstacle_poses};
 use crate::recorder::{Recorded, Recorder, Tape, make_files};
-use crate::scene::{BackendKind, DeviceKind, MotionOrigin, Scene, ToolSettings};
+use crate::scene::{BackendKind, Scene, ToolSettings};
 use crate::servo::{ServoReport, ServoSettings, ServoUnit};
+use crate::shared::{Shared, servo_settings};
 use crate::threads::{FluidPace, FluidThread, ServoPace, ServoThread};
 use crate::tick_times::TickTimes;
 use crate::tool_lane::ToolLane;
 use crate::touch::{SolidPaths, Touch};
-use crate::{SceneError, Value, settings};
-use glam::DVec3;
-use hapflow_devices::{AtEnd, HapticDevice, Motion, NullDevice, Replay, SimulatedHand, TargetScript};
+use crate::{SceneError, Value};
+use hapflow_devices::HapticDevice;
 use hapflow_fluid::{AnalyticJet, CpuBackend, FluidBackend, FluidConfig, ParticleView};
-use hapflow_haptics::{FaultSet, Filter, LocalModel, RangeError, SafetyGate, ToolState, Touching};
+use hapflow_haptics::{Filter, LocalModel, SafetyGate, ToolState, Touching};
 use hapflow_realtime::{
     Clock, HostClock, LatestReader, LatestWriter, RealtimeStatus, RingConsumer, SharedFlags, latest, ring,
 };
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
 /// Who drives a half of a session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,135 +68,6 @@ impl SessionOptions {
     }
 }
 
-/// The scene as it stands, shared by main and fluid; the servo gets its part wait-free and never waits for this
-/// lock.
-pub(crate) struct Shared {
-    state: Mutex<State>,
-    limit: ForceLimit,
-    version: AtomicU64,
-    threads: usize,
-    wanted: AtomicBool,
-    view: Mutex<ParticleView>,
-    answered: AtomicU64,
-}
-
-struct State {
-    scene: Scene,
-    /// Changes of the scene that are done.
-    changed: usize,
-    /// One for each tool.
-    servo: Vec<LatestWriter<ServoSettings>>,
-}
-
-impl Shared {
-    fn state(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn set(&self, path: &str, value: &Value) -> Result<(), SceneError> {
-        let mut state = self.state();
-        let mut scene = self.as_it_stands(&state);
-        settings::set_live(&mut scene, path, value)?;
-        self.limit.check(&scene.gate)?;
-        scene.check()?;
-        self.install(&mut state, scene);
-        Ok(())
-    }
-
-    /// The scene, with a force limit that was lowered since in place of its own.
-    fn as_it_stands(&self, state: &State) -> Scene {
-        Scene { gate: self.limit.applied(state.scene.gate), ..state.scene.clone() }
-    }
-
-    fn install(&self, state: &mut State, scene: Scene) {
-        state.scene = scene;
-        let State { scene, servo, .. } = state;
-        for (writer, tool) in servo.iter_mut().zip(scene.tools()) {
-            writer.write(servo_settings(scene, tool));
-        }
-        self.version.fetch_add(1, Ordering::Release);
-    }
-
-    /// Applies the scene's own changes that are due. They were checked when the scene was read; one that a
-    /// later `set` has made impossible is passed over.
-    pub fn apply_changes_until(&self, now_s: f64) {
-        let mut state = self.state();
-        while let Some(change) = state.scene.changes.get(state.changed).filter(|c| c.at_s <= now_s).cloned() {
-            state.changed += 1;
-            let mut scene = state.scene.clone();
-            let done = change.settings.iter().try_for_each(|(p, v)| settings::set_live(&mut scene, p, v));
-            if done.is_ok() && scene.fluid_config(1).check().is_ok() {
-                self.install(&mut state, scene);
-            }
-        }
-    }
-
-    /// The fluid's settings, if there are newer ones than `seen`.
-    pub fn newer_than(&self, seen: &mut u64) -> Option<FluidConfig> {
-        let version = self.version.load(Ordering::Acquire);
-        if version == *seen {
-            return None;
-        }
-        *seen = version;
-        Some(self.state().scene.fluid_config(self.threads))
-    }
-
-    /// Fills the view if main has asked for one.
-    pub fn answer_snapshot(&self, backend: &mut dyn FluidBackend) {
-        if self.wanted.swap(false, Ordering::AcqRel) {
-            backend.snapshot(&mut self.view.lock().unwrap_or_else(PoisonError::into_inner));
-            self.answered.fetch_add(1, Ordering::Release);
-        }
-    }
-}
-
-fn servo_settings(scene: &Scene, tool: &ToolSettings) -> ServoSettings {
-    ServoSettings { gate: scene.gate, force_scale: tool.force_scale, reach: tool.shape().bounding_radius() }
-}
-
-/// What any thread may do with a session: raise and clear faults, and limit its forces.
-#[derive(Clone, Debug)]
-pub struct Control {
-    flags: SharedFlags,
-    limit: ForceLimit,
-    /// One for each tool, whose gate answers it by itself.
-    clear: Vec<SharedFlags>,
-}
-
-impl Control {
-    /// No force from the next tick on, until [`clear_faults`](Self::clear_faults). Thread: any.
-    pub fn emergency_stop(&self) {
-        self.raise(FaultSet::EMERGENCY_STOP);
-    }
-
-    /// Raises faults, on all tools from their next tick on. Thread: any.
-    pub fn raise(&self, faults: FaultSet) {
-        self.flags.raise(faults.bits());
-    }
-
-    /// Takes back every fault; the force ramps in. Thread: any.
-    pub fn clear_faults(&self) {
-        self.flags.clear(u32::MAX);
-        for tool in &self.clear {
-            tool.raise(1);
-        }
-    }
-
-    /// From the next tick on no tool's force is larger than `max_force_n` (N) and no torque than `max_torque_nm`
-    /// (N·m), for the rest of the session: a limit can be lowered and never raised. Thread: any.
-    ///
-    /// # Errors
-    /// A number that is not from 0 to the present limit; nothing changes then.
-    pub fn limit_force(&self, max_force_n: f64, max_torque_nm: f64) -> Result<(), RangeError> {
-        self.limit.lower(max_force_n, max_torque_nm)
-    }
-
-    /// Faults that are raised. Thread: any.
-    pub fn faults(&self) -> FaultSet {
-        FaultSet::from_bits(self.flags.load())
-    }
-}
-
 /// Threads that the session owns, if any.
 #[derive(Default)]
 struct Owned {
@@ -242,11 +112,7 @@ impl Session {
         let threads = if options.threads == 0 { default_threads() } else { options.threads };
         let config = scene.fluid_config(threads);
         config.check()?;
-        let control = Control {
-            flags: SharedFlags::new(),
-            limit: ForceLimit::new(scene.gate),
-            clear: scene.tools().map(|_| SharedFlags::new()).collect(),
-        };
+        let control = Control::new(scene);
         let (mut tools, mut lanes, mut writers, mut felt) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (tool, clear) in scene.tools().zip(&control.clear) {
             let opened = open_tool(scene, tool, &control, clear, options.tape)?;
@@ -255,15 +121,7 @@ impl Session {
             writers.push(opened.settings);
             felt.extend(opened.solids);
         }
-        let shared = Arc::new(Shared {
-            state: Mutex::new(State { scene: scene.clone(), changed: 0, servo: writers }),
-            limit: control.limit.clone(),
-            version: AtomicU64::new(0),
-            threads,
-            wanted: AtomicBool::new(false),
-            view: Mutex::new(ParticleView::default()),
-            answered: AtomicU64::new(0),
-        });
+        let shared = Arc::new(Shared::new(scene, control.limit.clone(), threads, writers));
         let (report, fluid_report) = latest(FluidReport::default());
         let (mover, poses) = obstacle_poses(scene.obstacles.len());
         let fluid = FluidUnit {
@@ -406,7 +264,7 @@ impl Session {
     /// # Errors
     /// An unknown path.
     pub fn get(&self, path: &str) -> Result<Value, SceneError> {
-        settings::get(&self.shared.as_it_stands(&self.shared.state()), path)
+        self.shared.get(path)
     }
 
     /// The first tool's newest tick.
@@ -441,17 +299,17 @@ impl Session {
 
     /// Asks for the particles; they come with the next fluid frame.
     pub fn request_particles(&self) {
-        self.shared.wanted.store(true, Ordering::Release);
+        self.shared.want_snapshot();
     }
 
     /// How many requests for particles were answered so far; a look at it copies nothing.
     pub fn particles_answered(&self) -> u64 {
-        self.shared.answered.load(Ordering::Acquire)
+        self.shared.answered()
     }
 
     /// Copies the particles of the last answered request, and says how many requests were answered so far.
     pub fn particles(&self, view: &mut ParticleView) -> u64 {
-        view.clone_from(&self.shared.view.lock().unwrap_or_else(PoisonError::into_inner));
+        self.shared.snapshot(view);
         self.particles_answered()
     }
 
@@ -559,56 +417,4 @@ fn open_backend(scene: &Scene, config: &FluidConfig) -> Result<Box<dyn FluidBack
         BackendKind::Cpu => Box::new(CpuBackend::new(config)?),
         BackendKind::AnalyticJet => Box::new(AnalyticJet::new(config)?),
     })
-}
-
-/// The device that `scene` asks for. Its positions are in the device frame of the scene's mapping.
-///
-/// # Errors
-/// A motion that cannot be read, or a hand that cannot be.
-pub fn open_device(scene: &Scene) -> Result<Box<dyn HapticDevice>, SceneError> {
-    let mapping = scene.mapping()?;
-    let place = |p: DVec3| mapping.device_state(ToolState::at(p)).position;
-    let start = place(scene.tool.position);
-    Ok(match scene.run.device {
-        DeviceKind::Null => Box::new(NullDevice::new(start)),
-        DeviceKind::Replay => {
-            let motion = motion(&scene.run.motion)?;
-            let (motion, start) = match scene.run.motion_origin {
-                MotionOrigin::Tool => (motion, start),
-                MotionOrigin::Scene => (motion.map(place)?, DVec3::ZERO),
-            };
-            Box::new(Replay::new(motion, start, AtEnd::Hold)?)
-        }
-        DeviceKind::Hand => {
-            let script: Vec<_> = scene.script.iter().map(|s| to_device(s, &place)).collect();
-            let script = TargetScript::new(start, &script, AtEnd::Hold)?;
-            Box::new(SimulatedHand::new(scene.hand, script)?)
-        }
-    })
-}
-
-/// The shipped motion of that name, or that of a file.
-fn motion(name: &str) -> Result<Motion, SceneError> {
-    match Motion::builtin(name) {
-        Some(motion) => Ok(motion),
-        None => Ok(Motion::load(Path::new(name))?),
-    }
-}
-
-/// A script's segment, turned from the scene's frame into the device's.
-fn to_device(
-    segment: &hapflow_devices::Segment,
-    place: &impl Fn(DVec3) -> DVec3,
-) -> hapflow_devices::Segment {
-    use hapflow_devices::Segment;
-    match *segment {
-        Segment::Hold { duration_s } => Segment::Hold { duration_s },
-        Segment::MoveTo { position, duration_s } => Segment::MoveTo { position: place(position), duration_s },
-        Segment::Sine { amplitude, frequency_hz, duration_s } => {
-            Segment::Sine { amplitude: place(amplitude) - place(DVec3::ZERO), frequency_hz, duration_s }
-        }
-        Segment::Circle { centre, frequency_hz, duration_s } => {
-            Segment::Circle { centre: place(centre), frequency_hz, duration_s }
-        }
-    }
 }
