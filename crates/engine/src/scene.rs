@@ -271,6 +271,7 @@ impl Scene {
                 sinks: self.sinks.clone(),
                 pools: self.pools.clone(),
                 bodies: tools.chain(self.obstacles.iter().map(obstacle_body)).collect(),
+                ..World::default()
             },
             frame_hz: self.run.fluid_hz,
             threads,

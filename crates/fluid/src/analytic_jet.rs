@@ -6,7 +6,7 @@
 //! is taken to leave at right angles (a plate; a sphere deflects less).
 
 use crate::backend::{FluidBackend, FluidError, FrameInput, FrameOutput, ParticleView};
-use crate::body::{Body, BodyLoad};
+use crate::body::{Body, BodyLoad, Medium};
 use crate::{FluidConfig, Source};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -118,6 +118,8 @@ impl FluidBackend for AnalyticJet {
 
     fn submit(&mut self, frame: &FrameInput<'_>) {
         let dt = frame.duration / Self::SAMPLES as f64;
+        // A jet in closed form has no mass that a body would carry along.
+        let medium = Medium { density: 0.0, gravity: self.config.settings.gravity };
         let mut loads = vec![BodyLoad::default(); self.bodies.len()];
         for (body, motion) in self.bodies.iter_mut().zip(frame.bodies) {
             body.begin_frame(motion, frame.duration);
@@ -128,7 +130,7 @@ impl FluidBackend for AnalyticJet {
             for (b, motion) in frame.bodies.iter().enumerate().take(self.bodies.len()) {
                 self.bodies[b].advance(motion, share, dt);
                 let load = self.load(&self.bodies[b]);
-                self.bodies[b].push(load.force() * dt);
+                self.bodies[b].push(&load, &medium, dt);
                 loads[b].add_scaled(&load, 1.0 / Self::SAMPLES as f64);
             }
         }

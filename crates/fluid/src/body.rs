@@ -1,5 +1,6 @@
 //! Bodies in the fluid: how they move in a frame, and the load that the fluid puts on them.
 
+use crate::periodic::Periodic;
 use crate::shape::Frame;
 use crate::wall::WallTable;
 use crate::{BodyConfig, Shape};
@@ -62,6 +63,9 @@ pub enum BodyDrive {
         /// Velocity at the start of the frame, m/s.
         velocity: DVec3,
     },
+    /// It goes where the fluid and gravity take it, from where it is; the path plays no part. It may be lighter
+    /// than the fluid. Walls and other bodies do not stop it.
+    Free,
 }
 
 /// Motion of one body in one frame.
@@ -69,8 +73,8 @@ pub enum BodyDrive {
 pub struct BodyMotion<'a> {
     /// Who moves it.
     pub drive: BodyDrive,
-    /// Samples of its path in order of time, at least one, spread over the frame; a body that is led ends at
-    /// the last.
+    /// Samples of its path in order of time, at least one unless it is free, spread over the frame; a body that is
+    /// led ends at the last.
     pub path: &'a [BodySample],
 }
 
@@ -110,64 +114,116 @@ impl BodyLoad {
 pub(crate) struct Body {
     pub config: BodyConfig,
     pub state: BodySample,
-    /// Mean acceleration over the frame, m/s²: the wall pressure is extrapolated with it.
+    /// Acceleration, m/s²: the wall pressure is extrapolated with it. Of a led body its mean over the frame.
     pub acceleration: DVec3,
-    driven: bool,
+    drive: BodyDrive,
+}
+
+/// What a free body moves in.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Medium {
+    /// Density of the fluid, kg/m³.
+    pub density: f64,
+    /// Gravity, m/s².
+    pub gravity: DVec3,
 }
 
 impl Body {
     pub fn new(config: BodyConfig) -> Self {
-        Self { config, state: BodySample::at(config.position), acceleration: DVec3::ZERO, driven: false }
+        Self {
+            config,
+            state: BodySample::at(config.position),
+            acceleration: DVec3::ZERO,
+            drive: BodyDrive::Led,
+        }
     }
 
     /// Takes the drive of a new frame of `duration` seconds.
     pub fn begin_frame(&mut self, motion: &BodyMotion<'_>, duration: f64) {
         let last = motion.path.last().copied().filter(BodySample::is_finite).unwrap_or(self.state);
-        self.acceleration = DVec3::ZERO;
-        self.driven = false;
+        self.drive = motion.drive;
         match motion.drive {
             BodyDrive::Led if duration > 0.0 => {
                 self.acceleration = (last.velocity - self.state.velocity) / duration;
             }
-            BodyDrive::Led => {}
+            BodyDrive::Led => self.acceleration = DVec3::ZERO,
             BodyDrive::Driven { velocity } => {
                 self.state.velocity = velocity;
-                self.driven = true;
+                self.acceleration = DVec3::ZERO;
             }
+            BodyDrive::Free => {}
         }
     }
 
     /// Moves on by `dt`, of which the frame's share so far ends at `share` (0..1).
     pub fn advance(&mut self, motion: &BodyMotion<'_>, share: f64, dt: f64) {
-        if self.driven {
-            self.state.position += self.state.velocity * dt;
-            if let Some(last) = motion.path.last() {
-                self.state.orientation = last.orientation;
+        match self.drive {
+            BodyDrive::Led => self.follow(motion.path, share, dt),
+            BodyDrive::Driven { .. } => {
+                self.state.position += self.state.velocity * dt;
+                if let Some(last) = motion.path.last() {
+                    self.state.orientation = last.orientation;
+                }
             }
-        } else {
-            // A broken sample leaves the body where it is: it must not cost the fluid.
-            let target = sample_path(motion.path, share).filter(BodySample::is_finite).unwrap_or(self.state);
-            let velocity = (target.position - self.state.position) / dt;
-            // A tool that is put elsewhere does not shovel the fluid between.
-            let velocity = if velocity.length() <= JUMP_SPEED { velocity } else { DVec3::ZERO };
-            self.state = BodySample { velocity, ..target };
+            BodyDrive::Free => {
+                self.state.position += self.state.velocity * dt;
+                let turn = DQuat::from_scaled_axis(self.state.angular_velocity * dt);
+                self.state.orientation = (turn * self.state.orientation).normalize();
+            }
         }
     }
 
-    /// Takes an impulse of the fluid, N·s; only a driven body yields to it, by its share.
-    pub fn push(&mut self, impulse: DVec3) {
-        if self.driven {
-            self.state.velocity += impulse * (self.config.collision_response / self.config.mass);
+    fn follow(&mut self, path: &[BodySample], share: f64, dt: f64) {
+        // A broken sample leaves the body where it is: it must not cost the fluid.
+        let target = sample_path(path, share).filter(BodySample::is_finite).unwrap_or(self.state);
+        let velocity = (target.position - self.state.position) / dt;
+        // A tool that is put elsewhere does not shovel the fluid between.
+        let velocity = if velocity.length() <= JUMP_SPEED { velocity } else { DVec3::ZERO };
+        self.state = BodySample { velocity, ..target };
+    }
+
+    /// Takes the load of the fluid over `dt`; a driven body yields to it by its share, a free one with gravity.
+    pub fn push(&mut self, load: &BodyLoad, medium: &Medium, dt: f64) {
+        match self.drive {
+            BodyDrive::Led => {}
+            BodyDrive::Driven { .. } => {
+                self.state.velocity += load.force() * (dt * self.contact_inverse_mass());
+            }
+            BodyDrive::Free => self.fall(load, medium, dt),
+        }
+    }
+
+    /// The fluid's force answers the acceleration with up to the displaced mass: the wall pressure is extrapolated
+    /// with it. So that mass is taken to the body's side, with the last acceleration on the other, and a body
+    /// lighter than the fluid is stable too.
+    fn fall(&mut self, load: &BodyLoad, medium: &Medium, dt: f64) {
+        let (mass, shape) = (self.config.mass, self.config.shape);
+        let carried = if shape.volume().is_finite() { medium.density * shape.volume() } else { 0.0 };
+        let pull = load.force() + mass * medium.gravity + carried * self.acceleration;
+        let acceleration = pull / (mass + carried);
+        let s = &mut self.state;
+        let (inertia, inverse) = (shape.inertia(mass), s.orientation.inverse());
+        let (spin, torque) = (inverse * s.angular_velocity, inverse * load.torque);
+        // Euler's equations, in the body's frame.
+        let turning = s.orientation * ((torque - spin.cross(inertia * spin)) / inertia);
+        if acceleration.is_finite() && turning.is_finite() {
+            self.acceleration = acceleration;
+            s.velocity += acceleration * dt;
+            s.angular_velocity += turning * dt;
         }
     }
 
     /// 1/mass as a contact by impulse meets it, 1/kg.
     pub fn contact_inverse_mass(&self) -> f64 {
-        if self.driven { self.config.collision_response / self.config.mass } else { 0.0 }
+        match self.drive {
+            BodyDrive::Led => 0.0,
+            BodyDrive::Driven { .. } => self.config.collision_response / self.config.mass,
+            BodyDrive::Free => 1.0 / self.config.mass,
+        }
     }
 
     pub fn end_frame(&mut self, motion: &BodyMotion<'_>) {
-        if let (false, Some(last)) = (self.driven, motion.path.last().filter(|s| s.is_finite())) {
+        if let (BodyDrive::Led, Some(last)) = (self.drive, motion.path.last().filter(|s| s.is_finite())) {
             self.state = *last;
         }
     }
@@ -200,6 +256,7 @@ pub(crate) struct BodyNow {
     pub acceleration: Vec3,
     pub inverse_mass: f32,
     reach: f32,
+    periodic: Periodic,
 }
 
 /// Where a particle stands to a surface.
@@ -217,7 +274,7 @@ pub(crate) struct Contact {
 
 impl BodyNow {
     /// `margin`: how far from the surface particles still meet it, m.
-    pub fn new(body: &Body, margin: f64) -> Self {
+    pub fn new(body: &Body, margin: f64, periodic: Periodic) -> Self {
         Self {
             frame: Frame::new(body.state.position, body.state.orientation),
             shape: body.config.shape,
@@ -226,16 +283,17 @@ impl BodyNow {
             acceleration: body.acceleration.as_vec3(),
             inverse_mass: body.contact_inverse_mass() as f32,
             reach: (body.config.shape.bounding_radius() + margin) as f32,
+            periodic,
         }
     }
 
     /// The contact of a particle at `point`, if it is within reach.
     pub fn contact(&self, point: Vec3, margin: f32) -> Option<Contact> {
-        let arm = point - self.frame.position;
+        let arm = self.periodic.shortest(point - self.frame.position);
         if arm.length_squared() > self.reach * self.reach {
             return None;
         }
-        let (distance, normal) = self.shape.distance(self.frame.to_body(point));
+        let (distance, normal) = self.shape.distance(self.frame.to_body_direction(arm));
         if distance > margin {
             return None;
         }
@@ -277,6 +335,50 @@ mod tests {
         }
     }
 
+    /// In nothing, a free body falls; a fluid that answers its acceleration with the displaced mass slows it as the
+    /// added mass says, at any ratio of densities.
+    #[test]
+    fn a_free_body_falls_as_its_mass_and_the_carried_fluid_say() {
+        let shape = Shape::Sphere { radius: 0.05 };
+        let medium = Medium { density: 1000.0, gravity: DVec3::new(0.0, -9.81, 0.0) };
+        let displaced = medium.density * shape.volume();
+        for ratio in [0.05, 0.5, 1.0, 5.0] {
+            let config = BodyConfig { shape, mass: ratio * displaced, ..BodyConfig::default() };
+            let mut body = Body::new(config);
+            let motion = BodyMotion { drive: BodyDrive::Free, path: &[] };
+            body.begin_frame(&motion, 0.01);
+            for _ in 0..400 {
+                let force = -displaced * medium.gravity - 0.5 * displaced * body.acceleration;
+                let load = BodyLoad { pressure_force: force, ..BodyLoad::default() };
+                body.push(&load, &medium, 1e-3);
+                body.advance(&motion, 1.0, 1e-3);
+            }
+            let expected = 9.81 * (1.0 - ratio) / (ratio + 0.5);
+            assert!((body.acceleration.y / expected - 1.0).abs() < 1e-9 || ratio == 1.0, "{ratio}");
+            assert!(ratio != 1.0 || body.acceleration.y.abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_free_body_keeps_its_spin_momentum() {
+        let shape = Shape::Box { size: DVec3::new(0.1, 0.2, 0.3) };
+        let mut body = Body::new(BodyConfig { shape, ..BodyConfig::default() });
+        body.state.angular_velocity = DVec3::new(3.0, 0.1, 0.2);
+        let medium = Medium { density: 0.0, gravity: DVec3::ZERO };
+        let motion = BodyMotion { drive: BodyDrive::Free, path: &[] };
+        body.begin_frame(&motion, 0.01);
+        let momentum = |b: &Body| {
+            let s = b.state;
+            s.orientation * (shape.inertia(0.1) * (s.orientation.inverse() * s.angular_velocity))
+        };
+        let before = momentum(&body);
+        for _ in 0..5000 {
+            body.push(&BodyLoad::default(), &medium, 1e-4);
+            body.advance(&motion, 1.0, 1e-4);
+        }
+        assert!((momentum(&body) - before).length() < 1e-3 * before.length());
+    }
+
     #[test]
     fn a_driven_body_takes_its_share_of_an_impulse() {
         let config = BodyConfig {
@@ -288,7 +390,8 @@ mod tests {
         let mut body = Body::new(config);
         let motion = BodyMotion { drive: BodyDrive::Driven { velocity: DVec3::X }, path: &[] };
         body.begin_frame(&motion, 0.01);
-        body.push(DVec3::Y);
+        let load = BodyLoad { pressure_force: DVec3::Y, ..BodyLoad::default() };
+        body.push(&load, &Medium { density: 1000.0, gravity: DVec3::NEG_Y }, 1.0);
         body.advance(&motion, 1.0, 0.01);
         assert!((body.state.velocity - DVec3::new(1.0, 0.4, 0.0)).length() < 1e-12);
         assert!((body.state.position - DVec3::new(0.01, 0.004, 0.0)).length() < 1e-12);

@@ -57,6 +57,8 @@ pub struct FluidSettings {
     pub artificial_viscosity: f64,
     /// Acoustic damper ζ of `wcsph`, in units of c dx.
     pub acoustic_damping: f64,
+    /// Pressure of `wcsph` that all is under, Pa, for a fluid without free surface: what is below it can pull.
+    pub background_pressure: f64,
     /// Rate at which velocities decay everywhere, 1/s.
     pub damping: f64,
     /// Largest distance that a particle may travel in one fluid frame, m; 0 sets no cap.
@@ -91,6 +93,7 @@ impl Default for FluidSettings {
             density_diffusion: 0.1,
             artificial_viscosity: 0.02,
             acoustic_damping: 0.5,
+            background_pressure: 0.0,
             damping: 0.0,
             max_displacement: 0.0,
             lifetime: 0.0,
@@ -214,11 +217,22 @@ pub struct BodyConfig {
     pub position: DVec3,
 }
 
+impl Default for BodyConfig {
+    /// A ball of 15 mm radius and 0.1 kg in the origin.
+    fn default() -> Self {
+        let shape = Shape::Sphere { radius: 0.015 };
+        Self { shape, mass: 0.1, collision_response: 1.0, position: DVec3::ZERO }
+    }
+}
+
 /// What surrounds the fluid; fixed for a session, but for the sources' settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct World {
     /// Particles that leave it vanish.
     pub bounds: Aabb,
+    /// Axes (x, y, z) along which the bounds are a period instead: what leaves comes in on the other side. The
+    /// period is at least three times the kernel's support.
+    pub periodic: [bool; 3],
     /// Height of a level ground, m.
     pub ground: Option<f64>,
     /// An open box.
@@ -231,6 +245,25 @@ pub struct World {
     pub pools: Vec<Aabb>,
     /// Bodies, first of all the tool.
     pub bodies: Vec<BodyConfig>,
+    /// Which of many equal starts: particles stand off the lattice of a pool by a little, at random.
+    pub seed: u32,
+}
+
+impl Default for World {
+    /// Nothing, within a metre.
+    fn default() -> Self {
+        Self {
+            bounds: Aabb { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) },
+            periodic: [false; 3],
+            ground: None,
+            container: None,
+            sources: Vec::new(),
+            sinks: Vec::new(),
+            pools: Vec::new(),
+            bodies: Vec::new(),
+            seed: 0,
+        }
+    }
 }
 
 /// All that a backend needs to know.
@@ -300,6 +333,7 @@ impl FluidConfig {
         range("fluid.density_diffusion", s.density_diffusion, 0.0, 0.3)?;
         range("fluid.artificial_viscosity", s.artificial_viscosity, 0.0, 1.0)?;
         range("fluid.acoustic_damping", s.acoustic_damping, 0.0, 1.0)?;
+        range("fluid.background_pressure", s.background_pressure, 0.0, 1e7)?;
         range("fluid.damping", s.damping, 0.0, 1e3)?;
         range("fluid.max_displacement", s.max_displacement, 0.0, 10.0)?;
         range("fluid.lifetime", s.lifetime, 0.0, 1e6)?;
@@ -320,6 +354,10 @@ impl FluidConfig {
                 return Err(FluidError::Box { name, min: b.min, max: b.max });
             }
         }
+        let size = self.world.bounds.max - self.world.bounds.min;
+        for axis in (0..3).filter(|&a| self.world.periodic[a]) {
+            range("bounds (period)", size[axis], 3.0 * self.settings.support_length(), 1e3)?;
+        }
         if let Some(height) = self.world.ground {
             range("ground", height, -1e3, 1e3)?;
         }
@@ -334,7 +372,9 @@ impl FluidConfig {
             place("tool.position", b.position)?;
             range("tool.mass", b.mass, 1e-4, 100.0)?;
             range("tool.collision_response", b.collision_response, 0.0, 1.0)?;
-            range("tool.radius", b.shape.bounding_radius(), 1e-4, 1.0)?;
+            for length in b.shape.lengths() {
+                range("tool.radius", length, 1e-4, 10.0)?;
+            }
         }
         Ok(())
     }

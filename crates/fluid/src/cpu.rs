@@ -5,10 +5,11 @@
 //! of threads: see `solver`.
 
 use crate::backend::{FluidBackend, FluidError, FrameInput, FrameOutput, ParticleView};
-use crate::body::{Body, BodyLoad, BodyNow, BodyTables};
+use crate::body::{Body, BodyLoad, BodyNow, BodyTables, Medium};
 use crate::emitter::Emitter;
 use crate::grid::Grid;
 use crate::particles::{Newborn, Particles};
+use crate::periodic::Periodic;
 use crate::restack::restack;
 use crate::solids::{Meeting, Solids, Walls};
 use crate::solver::muller::Muller;
@@ -16,7 +17,7 @@ use crate::solver::wcsph::{PACKING_INTERVAL, Wcsph};
 use crate::solver::{Pass, Rows};
 use crate::wall::WallTable;
 use crate::{BodyMotion, FluidConfig, InteractionMode, Solver, limits, pools};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// A fluid on the CPU.
 pub struct CpuBackend {
@@ -57,6 +58,17 @@ impl CpuBackend {
             output: FrameOutput::default(),
             ready: false,
         })
+    }
+}
+
+impl CpuBackend {
+    /// Gives each particle the velocity (m/s) that `flow` has at its place: a start from a known flow.
+    pub fn set_flow(&mut self, flow: impl Fn(DVec3) -> DVec3) {
+        let p = &mut self.fluid.particles;
+        for i in 0..p.len() {
+            let velocity = flow(p.position(i).as_dvec3()).as_vec3();
+            p.set_velocity(i, if velocity.is_finite() { velocity } else { Vec3::ZERO });
+        }
     }
 }
 
@@ -102,6 +114,7 @@ struct Fluid {
     emitters: Vec<Emitter>,
     method: Method,
     walls: Walls,
+    periodic: Periodic,
     plane: WallTable,
     tables: BodyTables,
     time: f64,
@@ -113,6 +126,7 @@ struct Fluid {
     rows: Rows,
     partial: Vec<BodyLoad>,
     dead: Vec<bool>,
+    images: Vec<(u32, Vec3)>,
     newborn: Vec<Newborn>,
     now: Vec<BodyNow>,
     step_loads: Vec<BodyLoad>,
@@ -147,6 +161,7 @@ impl Fluid {
             emitters: vec![Emitter::default(); config.world.sources.len()],
             method: Method::new(config),
             walls: Walls::new(&config.world, config.settings.spacing),
+            periodic: Periodic::new(&config.world),
             plane: WallTable::plane(support),
             tables: BodyTables::new(&config.world.bodies, support),
             time: 0.0,
@@ -157,6 +172,7 @@ impl Fluid {
             rows: Rows::new(),
             partial: Vec::new(),
             dead: Vec::new(),
+            images: Vec::new(),
             newborn: Vec::new(),
             now: Vec::new(),
             step_loads: vec![BodyLoad::default(); config.world.bodies.len()],
@@ -179,6 +195,7 @@ impl Fluid {
             self.tables = BodyTables::new(&new.world.bodies, support);
         }
         self.walls = Walls::new(&new.world, new.settings.spacing);
+        self.periodic = Periodic::new(&new.world);
         let off = |config: &FluidConfig| config.settings.mode == InteractionMode::None;
         let switched_on = off(old) && !off(new);
         let respaced = new.settings.spacing != old.settings.spacing;
@@ -194,7 +211,8 @@ impl Fluid {
 
     /// Brings the particles to a new spacing, and spreads those that lie in each other's room.
     fn make_room(&mut self, old_spacing: f64, config: &FluidConfig) {
-        let now: Vec<_> = self.bodies.iter().map(|b| BodyNow::new(b, config.settings.spacing)).collect();
+        let now: Vec<_> =
+            self.bodies.iter().map(|b| BodyNow::new(b, config.settings.spacing, self.periodic)).collect();
         let solids = Solids { walls: &self.walls, bodies: &now, plane: &self.plane, tables: &self.tables };
         if old_spacing != config.settings.spacing {
             self.particles.replace(&pools::resample(&self.particles, old_spacing, config, &solids));
@@ -237,6 +255,7 @@ impl Fluid {
     }
 
     fn finish(&mut self, frame: &FrameInput<'_>, steps: usize, output: &mut FrameOutput) {
+        self.particles.drop_images();
         for (body, motion) in self.bodies.iter_mut().zip(frame.bodies) {
             body.end_frame(motion);
         }
@@ -284,7 +303,7 @@ impl Fluid {
         self.sort(config);
         let margin = config.settings.support_length();
         self.now.clear();
-        self.now.extend(self.bodies.iter().map(|b| BodyNow::new(b, margin)));
+        self.now.extend(self.bodies.iter().map(|b| BodyNow::new(b, margin, self.periodic)));
         self.step_loads.fill(BodyLoad::default());
         if self.interacts(config.settings.mode) {
             // In mixed mode a sub-step with forces gives the push of the next one too.
@@ -299,8 +318,10 @@ impl Fluid {
             self.rows.resize(self.particles.len(), [0.0; 4]);
         }
         self.integrate(config, step);
+        let s = &config.settings;
+        let medium = Medium { density: s.rest_density, gravity: s.gravity };
         for (body, load) in self.bodies.iter_mut().zip(&self.step_loads) {
-            body.push(load.force() * step.dt);
+            body.push(load, &medium, step.dt);
         }
         self.substep += 1;
     }
@@ -316,7 +337,7 @@ impl Fluid {
     fn emit(&mut self, config: &FluidConfig, dt: f64) {
         let spacing = config.settings.spacing;
         self.newborn.clear();
-        let room = config.settings.max_particles.saturating_sub(self.particles.len());
+        let room = config.settings.max_particles.saturating_sub(self.particles.count());
         for (emitter, source) in self.emitters.iter_mut().zip(&config.world.sources) {
             emitter.emit(source, spacing, self.time, dt, room, &mut self.newborn);
         }
@@ -327,18 +348,36 @@ impl Fluid {
 
     /// Drops what has left, aged or broken, and sorts the rest.
     fn sort(&mut self, config: &FluidConfig) {
-        let p = &self.particles;
+        self.mark_dead(config);
+        let support = config.settings.support_length() as f32;
+        let first = self.particles.len();
+        if self.periodic.any() {
+            self.periodic.images(&self.particles, &self.dead, support, &mut self.images);
+            self.particles.add_images(&self.images);
+            self.dead.resize(self.particles.len(), false);
+        }
+        self.grid.sort(&mut self.particles, support, &self.dead);
+        if self.periodic.any() {
+            self.particles.link_images(&self.grid.order, &self.images, first);
+        }
+    }
+
+    /// Finds what has left, aged or broken, and whose image is done with; what has crossed a periodic side comes
+    /// in on the other.
+    fn mark_dead(&mut self, config: &FluidConfig) {
+        let p = &mut self.particles;
         let lifetime = config.settings.lifetime as f32;
         self.dead.clear();
         for i in 0..p.len() {
-            let position = p.position(i);
+            let position = self.periodic.wrap(p.position(i));
+            p.set_position(i, position);
             let broken = !(position.is_finite() && p.velocity(i).is_finite());
             self.degraded |= broken;
             let at = position.as_dvec3();
             let gone = !config.world.bounds.contains(at) || config.world.sinks.iter().any(|s| s.contains(at));
-            self.dead.push(broken || gone || (lifetime > 0.0 && p.age[i] > lifetime));
+            let aged = lifetime > 0.0 && p.age[i] > lifetime;
+            self.dead.push(broken || gone || aged || p.is_image(i));
         }
-        self.grid.sort(&mut self.particles, config.settings.support_length() as f32, &self.dead);
     }
 
     fn forces(&mut self, arch: pulp::Arch, dt: f64) {
@@ -354,6 +393,7 @@ impl Fluid {
             Method::Muller(m) => {
                 m.densities(pass!(), &mut self.rows);
                 m.take_densities(&mut self.particles, &self.rows, self.forgive, dt);
+                self.particles.refresh_images();
                 m.accelerations(pass!(), &mut self.rows);
             }
             Method::Wcsph(w) => {
@@ -363,6 +403,7 @@ impl Fluid {
                 }
                 w.rates(pass!(), &mut self.rows);
                 w.take_rates(&mut self.particles, &self.rows, dt);
+                self.particles.refresh_images();
                 w.accelerations(pass!(), &mut self.rows, &mut self.partial, &mut self.step_loads);
             }
         }
@@ -380,6 +421,9 @@ impl Fluid {
         let mut fastest = 0.0_f32;
         for i in 0..self.particles.len() {
             let p = &mut self.particles;
+            if p.is_image(i) {
+                continue;
+            }
             p.age[i] += dt;
             let (position, mut velocity) = (p.position(i), p.velocity(i));
             if p.held[i] > 0.0 {

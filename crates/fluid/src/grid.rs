@@ -19,7 +19,8 @@ pub(crate) struct Grid {
     /// Cell of each particle, before and after the sort.
     unsorted: Vec<u32>,
     cell: Vec<u32>,
-    order: Vec<u32>,
+    /// Where each particle stood before the last sort.
+    pub order: Vec<u32>,
 }
 
 impl Grid {

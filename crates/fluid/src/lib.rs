@@ -20,6 +20,7 @@ pub mod kernel;
 mod lanes;
 mod limits;
 mod particles;
+mod periodic;
 mod pools;
 mod restack;
 mod shape;

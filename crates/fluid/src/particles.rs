@@ -30,6 +30,11 @@ pub(crate) struct Particles {
     /// Time for which the source still leads it, s.
     pub held: Vec<f32>,
     pub id: Vec<u32>,
+    /// Images across the sides of a periodic world: the copy and whom it is of. They stand among the others from
+    /// the sort to the end of the sub-step.
+    images: Vec<[u32; 2]>,
+    /// Whether each is an image; empty in a world that is not periodic.
+    is_image: Vec<bool>,
     len: usize,
     next_id: u32,
     spare: Vec<f32>,
@@ -53,8 +58,19 @@ impl Particles {
         particles
     }
 
+    /// How many there are, images included.
     pub fn len(&self) -> usize {
         self.len
+    }
+
+    /// How many there are, images left out.
+    pub fn count(&self) -> usize {
+        self.len - self.images.len()
+    }
+
+    /// Whether `i` is the image of another.
+    pub fn is_image(&self, i: usize) -> bool {
+        self.is_image.get(i).copied().unwrap_or(false)
     }
 
     pub fn position(&self, i: usize) -> Vec3 {
@@ -129,7 +145,61 @@ impl Particles {
         self.spare_id.extend(order.iter().map(|&i| self.id[i as usize]));
         std::mem::swap(&mut self.id, &mut self.spare_id);
         self.len = order.len();
+        self.images.clear();
+        self.is_image.clear();
         self.pad();
+    }
+
+    /// Adds images at the end: whom each is of, and its place. [`link_images`](Self::link_images) comes after the
+    /// sort.
+    pub fn add_images(&mut self, images: &[(u32, Vec3)]) {
+        let len = self.len;
+        for column in self.columns() {
+            column.truncate(len);
+            column.extend(images.iter().map(|&(owner, _)| column[owner as usize]).collect::<Vec<_>>());
+        }
+        self.id.truncate(len);
+        self.id.extend(images.iter().map(|_| u32::MAX));
+        self.len += images.len();
+        self.pad();
+        for (k, &(_, place)) in images.iter().enumerate() {
+            self.set_position(len + k, place);
+        }
+    }
+
+    /// Finds the images among the sorted: they were the last of `images` before the sort by `order`.
+    pub fn link_images(&mut self, order: &[u32], images: &[(u32, Vec3)], first: usize) {
+        let mut now = vec![0; order.iter().map(|&old| old as usize + 1).max().unwrap_or(0)];
+        for (new, &old) in order.iter().enumerate() {
+            now[old as usize] = new as u32;
+        }
+        self.is_image.clear();
+        self.is_image.resize(order.len(), false);
+        self.images.clear();
+        for (k, &(owner, _)) in images.iter().enumerate() {
+            let image = now[first + k];
+            self.is_image[image as usize] = true;
+            self.images.push([image, now[owner as usize]]);
+        }
+    }
+
+    /// Gives the images what their owners have become.
+    pub fn refresh_images(&mut self) {
+        let images = std::mem::take(&mut self.images);
+        for column in [&mut self.p, &mut self.aux] {
+            for &[image, owner] in &images {
+                column[image as usize] = column[owner as usize];
+            }
+        }
+        self.images = images;
+    }
+
+    /// Drops the images.
+    pub fn drop_images(&mut self) {
+        if !self.images.is_empty() {
+            let real: Vec<_> = (0..self.len).filter(|&i| !self.is_image(i)).map(|i| i as u32).collect();
+            self.permute(&real);
+        }
     }
 
     fn pad(&mut self) {

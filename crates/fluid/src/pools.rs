@@ -2,6 +2,7 @@
 
 use crate::body::{Body, BodyNow};
 use crate::particles::{Newborn, Particles};
+use crate::periodic::Periodic;
 use crate::solids::Solids;
 use crate::{Aabb, FluidConfig, FluidError, Solver, restack};
 use glam::{DVec3, IVec3, Vec3};
@@ -20,9 +21,11 @@ pub(crate) fn fill(config: &FluidConfig) -> Result<Vec<Newborn>, FluidError> {
     if needed > allowed {
         return Err(FluidError::TooManyParticles { needed, allowed });
     }
-    let bodies: Vec<_> = config.world.bodies.iter().map(|&b| BodyNow::new(&Body::new(b), spacing)).collect();
+    let periodic = Periodic::new(&config.world);
+    let bodies: Vec<_> =
+        config.world.bodies.iter().map(|&b| BodyNow::new(&Body::new(b), spacing, periodic)).collect();
     let free = |p: Vec3| bodies.iter().all(|b| b.contact(p, 0.0).is_none());
-    let mut random = Random(0x9E37_79B9);
+    let mut random = Random::new(config.world.seed);
     let mut out = Vec::new();
     for pool in &config.world.pools {
         let (count, step) = lattice(pool, spacing);
@@ -67,6 +70,11 @@ fn hydrostatic(config: &FluidConfig, pool: &Aabb, position: Vec3) -> f32 {
 struct Random(u32);
 
 impl Random {
+    fn new(seed: u32) -> Self {
+        // The state of this generator is never zero.
+        Self(seed.wrapping_mul(0x85EB_CA6B) ^ 0x9E37_79B9 | 1)
+    }
+
     /// The next of a fixed sequence, −1..1 (xorshift, Marsaglia 2003, doi:10.18637/jss.v008.i14).
     fn next(&mut self) -> f32 {
         self.0 ^= self.0 << 13;

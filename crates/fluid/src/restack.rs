@@ -97,12 +97,8 @@ mod tests {
         let inner = Aabb { min: DVec3::ZERO, max: DVec3::new(0.04, 1.0, 0.04) };
         let world = World {
             bounds: Aabb { min: DVec3::splat(-1.0), max: DVec3::splat(1.0) },
-            ground: None,
             container: Some(OpenBox { inner }),
-            sources: vec![],
-            sinks: vec![],
-            pools: vec![],
-            bodies: vec![],
+            ..World::default()
         };
         let settings = FluidSettings { spacing: 0.01, ..FluidSettings::default() };
         let config = FluidConfig { settings, world, frame_hz: 100.0, threads: 1 };

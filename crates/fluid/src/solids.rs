@@ -121,10 +121,7 @@ mod tests {
             bounds: Aabb { min: DVec3::splat(-9.0), max: DVec3::splat(9.0) },
             ground: Some(-1.0),
             container: Some(OpenBox { inner }),
-            sources: vec![],
-            sinks: vec![],
-            pools: vec![],
-            bodies: vec![],
+            ..World::default()
         };
         let mut list = vec![];
         Walls::new(&world, 0.05).visit(p, 0.2, |d, n| list.push((d, n)));

@@ -2,11 +2,12 @@
 //!
 //! For a particle at signed distance d from the surface, with the solid S filling part of its support, four
 //! integrals of the Wendland kernel over S depend on d alone (for a plane, and for a sphere of known radius):
-//! λ = ∫W, g = n·∫∇W, and the tensor ∫(x'−x)⊗∇W = tn n⊗n + tt (I − n⊗n); and φ = −∫(dW/dr)/r for wall
-//! friction. With a wall pressure extrapolated linearly (gravity and the wall's acceleration included), a
-//! fluid at rest meets Archimedes' force of the true shape at any support. Ideas: density maps (Koschier &
-//! Bender 2017, doi:10.1145/3099564.3099565), semi-analytic boundaries (Winchenbach, Akhunov & Kolb 2020,
-//! doi:10.1145/3414685.3417829), pressure extrapolation (Adami, Hu & Adams 2012,
+//! λ = ∫W, g = n·∫∇W, and the tensor ∫(x'−x)⊗∇W = tn n⊗n + tt (I − n⊗n); and the viscous sum for a velocity
+//! that goes on linearly into the wall and has the wall's value at its surface, so that a uniform shear ends at
+//! the wall without a fault. With a wall pressure extrapolated linearly (gravity and the wall's acceleration
+//! included), a fluid at rest meets Archimedes' force of the true shape at any support. Ideas: density maps
+//! (Koschier & Bender 2017, doi:10.1145/3099564.3099565), semi-analytic boundaries (Winchenbach, Akhunov & Kolb
+//! 2020, doi:10.1145/3414685.3417829), pressure and velocity extrapolation (Adami, Hu & Adams 2012,
 //! doi:10.1016/j.jcp.2012.05.005).
 
 use crate::{Shape, kernel};
@@ -24,7 +25,7 @@ pub(crate) struct WallTerms {
     /// tn and tt.
     pub normal_moment: f32,
     pub tangent_moment: f32,
-    /// φ: friction sum, 1/m².
+    /// Friction: viscous sum over the solid for a unit slope of the velocity at the wall, 1/m.
     pub friction: f32,
 }
 
@@ -42,15 +43,19 @@ impl WallTable {
         Self::tabulate(support, |d, s| d / s)
     }
 
-    /// For the surface of `shape`: exact for a sphere, flat for others.
+    /// For the surface of `shape`: exact for a sphere. A tube gets the sphere of equal mean curvature, which is
+    /// all of a curvature that the integrals know in first order. Edges are taken for flat.
     pub fn for_shape(shape: &Shape, support: f64) -> Self {
-        match *shape {
-            Shape::Sphere { radius } => Self::tabulate(support, |d, s| {
-                let centre = (radius + d).max(1e-9);
-                (centre * centre + s * s - radius * radius) / (2.0 * centre * s)
-            }),
-            Shape::Disc { .. } => Self::plane(support),
+        let curvature = shape.mean_curvature();
+        if curvature == 0.0 {
+            return Self::plane(support);
         }
+        let radius = 1.0 / curvature;
+        Self::tabulate(support, |d, s| {
+            // Of a hollow sphere the radius is negative, and so is the distance from its centre.
+            let centre = if radius > 0.0 { (radius + d).max(1e-9) } else { (radius + d).min(-1e-9) };
+            (centre * centre + s * s - radius * radius) / (2.0 * centre * s)
+        })
     }
 
     /// `cap(d, s)`: cosine of the cap's opening, seen from the particle, on the shell of radius s.
@@ -91,7 +96,7 @@ fn integrate(support: f64, d: f64, cap: &impl Fn(f64, f64) -> f64) -> WallTerms 
         gradient += shell * slope * (1.0 - mu * mu) / 2.0;
         normal -= shell * s * slope * cube / 3.0;
         tangent -= shell * s * slope * ((1.0 - mu) / 2.0 - cube / 6.0);
-        friction -= shell * slope / s * (1.0 - mu);
+        friction -= shell * slope * 1.25 * (1.0 - mu * mu).powi(2);
     }
     WallTerms {
         volume: volume as f32,

@@ -58,6 +58,9 @@ impl<P: RowPass> pulp::WithSimd for Chunk<'_, P> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         for (k, row) in self.rows.iter_mut().enumerate() {
+            if self.pass.particles.is_image(self.first + k) {
+                continue;
+            }
             *row = self.work.row(simd, &self.pass, self.first + k, self.loads);
         }
     }

@@ -14,12 +14,8 @@ use glam::{DVec3, Vec3};
 fn config(solver: Solver) -> FluidConfig {
     let world = World {
         bounds: Aabb { min: DVec3::splat(-1.0), max: DVec3::splat(1.0) },
-        ground: None,
-        container: None,
-        sources: vec![],
-        sinks: vec![],
         pools: vec![Aabb { min: DVec3::ZERO, max: DVec3::splat(0.1) }],
-        bodies: vec![],
+        ..World::default()
     };
     let settings =
         FluidSettings { solver, viscosity: 0.3, surface_tension: 0.07, ..FluidSettings::default() };

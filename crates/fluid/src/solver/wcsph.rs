@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! dP_i/dt = −c² Σ f (v_j−v_i)·d + δ (H/2) c Σ 2 f (P_j − P_i − g·d) + q_i           at x(t+dt), v(t+dt)
-//! a_i     = −Σ f (P̂_i + P̂_j) d + 10 ν Σ f ((v_j−v_i)·d)/(r²+η²) d + walls + g      P̂ = max(0, P − ζ c dx div)
+//! a_i     = −Σ f (P̂_i + P̂_j) d + 10 ν Σ f ((v_j−v_i)·d)/(r²+η²) d + walls + g      P̂ = max(0, P + P₀ − ζ c dx div)
 //! ```
 //!
 //! Sources: Molteni & Colagrossi 2009 (doi:10.1016/j.cpc.2008.12.004) for the diffusion; Fourtakas et al. 2019
@@ -58,6 +58,10 @@ pub(crate) struct Wcsph {
     damper: f32,
     viscosity: f32,
     wall_viscosity: f32,
+    /// Distance below which the slope of the velocity at a wall is no longer looked for, m.
+    least_distance: f32,
+    /// Pressure over rest density that all is under, m²/s².
+    background: f32,
     eta2: f32,
     gravity: Vec3,
     two_way: bool,
@@ -80,6 +84,8 @@ impl Wcsph {
             damper: (s.acoustic_damping * c * dx) as f32,
             viscosity: (s.kinematic_viscosity() + artificial) as f32,
             wall_viscosity: s.kinematic_viscosity() as f32,
+            least_distance: (0.25 * dx) as f32,
+            background: (s.background_pressure / s.rest_density) as f32,
             eta2: (0.0025 * h * h) as f32,
             gravity: s.gravity.as_vec3(),
             two_way: s.two_way,
@@ -129,9 +135,9 @@ impl Wcsph {
             // Spray that has been squeezed lets go at once: a drop splashes on a wall and does not bounce.
             let lets_go = particles.fill[i] < SPRAY && divergence > 0.0;
             let free = lets_go || particles.held[i] > 0.0;
-            let p = if free { 0.0 } else { (particles.p[i] + dt * rate).max(0.0) };
+            let p = if free { 0.0 } else { (particles.p[i] + dt * rate).max(-self.background) };
             particles.p[i] = p;
-            particles.aux[i] = (p - self.damper * divergence).max(0.0);
+            particles.aux[i] = (p - self.damper * divergence + self.background).max(0.0);
         }
     }
 
@@ -156,7 +162,8 @@ impl Wcsph {
         let push = push - push.dot(n).min(0.0) * n;
         let slip = meeting.contact.velocity - velocity;
         let slip = slip - slip.dot(n) * n;
-        [push, 2.0 * self.wall_viscosity * terms.friction * slip]
+        let slope = slip / meeting.contact.distance.max(self.least_distance);
+        [push, self.wall_viscosity * terms.friction * slope]
     }
 }
 

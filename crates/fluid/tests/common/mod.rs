@@ -18,7 +18,7 @@ pub fn aabb(min: [f64; 3], max: [f64; 3]) -> Aabb {
 
 /// A body of `shape` at `position`, 100 g.
 pub fn body(shape: Shape, position: DVec3) -> BodyConfig {
-    BodyConfig { shape, mass: 0.1, collision_response: 1.0, position }
+    BodyConfig { shape, position, ..BodyConfig::default() }
 }
 
 /// A steady jet straight down, 20 mm and 1.5 m/s at the outlet.
@@ -39,12 +39,9 @@ pub fn tap(height: f64) -> Source {
 pub fn jet_scene(solver: Solver, spacing: f64) -> FluidConfig {
     let world = World {
         bounds: aabb([-0.12, -0.08, -0.12], [0.12, 0.1, 0.12]),
-        ground: None,
-        container: None,
         sources: vec![tap(0.06)],
-        sinks: vec![],
-        pools: vec![],
         bodies: vec![body(Shape::Sphere { radius: 0.015 }, DVec3::ZERO)],
+        ..World::default()
     };
     let settings = FluidSettings { solver, spacing, ..FluidSettings::default() };
     FluidConfig { settings, world, frame_hz: 1000.0, threads: 1 }
@@ -57,12 +54,10 @@ pub fn tank_scene(solver: Solver, side: f64, cells: u32, radius: f64) -> FluidCo
     let inner = aabb([-half, 0.0, -half], [half, 2.0 * side, half]);
     let world = World {
         bounds: aabb([-side, -0.5 * side, -side], [side, 3.0 * side, side]),
-        ground: None,
         container: Some(OpenBox { inner }),
-        sources: vec![],
-        sinks: vec![],
         pools: vec![aabb([-half, 0.0, -half], [half, side, half])],
         bodies: vec![body(Shape::Sphere { radius }, DVec3::Y * half)],
+        ..World::default()
     };
     let settings = FluidSettings { solver, spacing: side / f64::from(cells), ..FluidSettings::default() };
     FluidConfig { settings, world, frame_hz: 100.0, threads: 1 }
