@@ -34,7 +34,7 @@ pub struct FluidSettings {
     pub mode: InteractionMode,
     /// Rest particle spacing dx, m: a particle stands for ρ₀ dx³ of mass.
     pub spacing: f64,
-    /// Kernel support in spacings; 0 takes the solver's own (2.7 for `wcsph`, 2.0 for `muller`).
+    /// Kernel support in spacings; 0 takes the solver's own (2.7 for `wcsph`, 2 for `muller`).
     pub support: f64,
     /// Rest density ρ₀, kg/m³.
     pub rest_density: f64,
@@ -52,9 +52,13 @@ pub struct FluidSettings {
     pub sound_speed: f64,
     /// Density diffusion δ of `wcsph`, dimensionless.
     pub density_diffusion: f64,
-    /// Artificial viscosity α, dimensionless: kinematic viscosity α c H/20 in `wcsph`, eight times that in
-    /// `muller`, which boils without it. See [`FluidConfig::effective_viscosity`].
+    /// Artificial viscosity α, dimensionless. `wcsph`: against noise at the particle spacing it is as strong as a
+    /// kinematic viscosity α c H/20, and it leaves smooth flow alone. `muller`, which boils without it: eight times
+    /// that, on all flow. See [`FluidConfig::effective_viscosity`].
     pub artificial_viscosity: f64,
+    /// Particle shifting of `wcsph`: how fast particles spread to where there is room, a diffusivity in units of
+    /// c dx; 0 leaves it out.
+    pub shifting: f64,
     /// Acoustic damper ζ of `wcsph`, in units of c dx.
     pub acoustic_damping: f64,
     /// Pressure of `wcsph` that all is under, Pa, for a fluid without free surface: what is below it can pull.
@@ -92,6 +96,7 @@ impl Default for FluidSettings {
             sound_speed: 0.0,
             density_diffusion: 0.1,
             artificial_viscosity: 0.02,
+            shifting: 0.07,
             acoustic_damping: 0.5,
             background_pressure: 0.0,
             damping: 0.0,
@@ -312,9 +317,10 @@ impl FluidConfig {
         }
     }
 
-    /// Viscosity that acts between particles: the stated one and the solver's own, Pa·s.
+    /// Viscosity that acts on a flow whose wavelength is ten spacings: the stated one and the solver's own, Pa·s.
     pub fn effective_viscosity(&self) -> f64 {
-        self.settings.viscosity + self.settings.rest_density * solver::artificial_viscosity(self)
+        let wave_number = std::f64::consts::TAU / (10.0 * self.settings.spacing);
+        self.settings.viscosity + self.settings.rest_density * solver::added_viscosity(self, wave_number)
     }
 
     /// Refuses what cannot be computed or cannot be stable, naming field, value and range.
@@ -332,6 +338,7 @@ impl FluidConfig {
         range("fluid.sound_speed", s.sound_speed, 0.0, 2000.0)?;
         range("fluid.density_diffusion", s.density_diffusion, 0.0, 0.3)?;
         range("fluid.artificial_viscosity", s.artificial_viscosity, 0.0, 1.0)?;
+        range("fluid.shifting", s.shifting, 0.0, 0.5)?;
         range("fluid.acoustic_damping", s.acoustic_damping, 0.0, 1.0)?;
         range("fluid.background_pressure", s.background_pressure, 0.0, 1e7)?;
         range("fluid.damping", s.damping, 0.0, 1e3)?;

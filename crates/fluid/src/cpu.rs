@@ -13,7 +13,7 @@ use crate::periodic::Periodic;
 use crate::restack::restack;
 use crate::solids::{Meeting, Solids, Walls};
 use crate::solver::muller::Muller;
-use crate::solver::wcsph::{PACKING_INTERVAL, Wcsph};
+use crate::solver::wcsph::{PACKING_INTERVAL, Rates, Wcsph};
 use crate::solver::{Pass, Rows};
 use crate::wall::WallTable;
 use crate::{BodyMotion, FluidConfig, InteractionMode, Solver, limits, pools};
@@ -124,6 +124,7 @@ struct Fluid {
     forgive: bool,
     grid: Grid,
     rows: Rows,
+    rates: Vec<Rates>,
     partial: Vec<BodyLoad>,
     dead: Vec<bool>,
     images: Vec<(u32, Vec3)>,
@@ -170,6 +171,7 @@ impl Fluid {
             forgive: false,
             grid: Grid::default(),
             rows: Rows::new(),
+            rates: Vec::new(),
             partial: Vec::new(),
             dead: Vec::new(),
             images: Vec::new(),
@@ -314,6 +316,7 @@ impl Fluid {
                 self.step_loads.iter_mut().for_each(|load| *load = *load * 2.0);
             }
         } else {
+            self.rates.clear();
             self.rows.clear();
             self.rows.resize(self.particles.len(), [0.0; 4]);
         }
@@ -391,6 +394,7 @@ impl Fluid {
         }
         match self.method {
             Method::Muller(m) => {
+                self.rates.clear();
                 m.densities(pass!(), &mut self.rows);
                 m.take_densities(&mut self.particles, &self.rows, self.forgive, dt);
                 self.particles.refresh_images();
@@ -401,10 +405,11 @@ impl Fluid {
                     w.packing(pass!(), &mut self.rows);
                     w.take_packing(&mut self.particles, &self.rows);
                 }
-                w.rates(pass!(), &mut self.rows);
-                w.take_rates(&mut self.particles, &self.rows, dt);
+                w.rates(pass!(), &mut self.rates);
+                w.take_rates(&mut self.particles, &mut self.rates, dt);
                 self.particles.refresh_images();
-                w.accelerations(pass!(), &mut self.rows, &mut self.partial, &mut self.step_loads);
+                let rates = &self.rates;
+                w.accelerations(pass!(), rates, &mut self.rows, &mut self.partial, &mut self.step_loads);
             }
         }
         self.forgive = false;
@@ -426,18 +431,22 @@ impl Fluid {
             }
             p.age[i] += dt;
             let (position, mut velocity) = (p.position(i), p.velocity(i));
+            // Behind its outlet a jet falls as one; what its source still leads gives no way to the others.
+            let mut push = gravity;
             if p.held[i] > 0.0 {
                 p.held[i] -= dt;
             } else {
                 let [x, y, z, _] = self.rows[i];
-                velocity = (velocity + (Vec3::new(x, y, z) + gravity) * dt) * decay;
+                push += Vec3::new(x, y, z);
             }
+            velocity = (velocity + push * dt) * decay;
             let speed = velocity.length();
             if speed > step.cap {
                 velocity *= step.cap / speed;
                 self.degraded |= speed > step.guard;
             }
-            let mut state = (position + velocity * dt, velocity);
+            let shift = self.rates.get(i).map_or(Vec3::ZERO, |r| r.shift);
+            let mut state = (position + velocity * dt + shift, velocity);
             let mut met_body = false;
             solids.visit(state.0, step.contact.distance, |m| {
                 p.held[i] = 0.0;

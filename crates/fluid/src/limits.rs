@@ -1,6 +1,7 @@
 //! How long a sub-step may be, so that no setting can make the fluid explode.
 
-use crate::{FluidConfig, FluidError, InteractionMode, Solver, solver};
+use crate::solver::{muller, wcsph};
+use crate::{FluidConfig, FluidError, InteractionMode, Solver};
 
 /// What bounds the length of a sub-step, s; infinite where nothing does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,14 +34,14 @@ pub fn step_limits(config: &FluidConfig, speed: f64) -> StepLimits {
         return StepLimits { cfl: f64::INFINITY, viscous: f64::INFINITY, contact };
     }
     let c = config.sound_speed() + speed;
-    let (courant, viscous) = match s.solver {
-        Solver::Wcsph => (0.8, 0.015),
-        Solver::Muller => (0.4, 0.04),
+    let nu = s.kinematic_viscosity();
+    let (courant, decay) = match s.solver {
+        Solver::Wcsph => (0.8, nu / 0.015 + wcsph::artificial_viscosity(config) / 0.007),
+        Solver::Muller => (0.4, (nu + muller::artificial_viscosity(config)) / 0.04),
     };
-    let nu = s.kinematic_viscosity() + solver::artificial_viscosity(config);
     // Mixed gives every other sub-step the push of two.
     let share = if s.mode == InteractionMode::Mixed { 0.7 } else { 1.0 };
-    StepLimits { cfl: share * courant * dx / c, viscous: share * viscous * h * h / nu.max(1e-12), contact }
+    StepLimits { cfl: share * courant * dx / c, viscous: share * h * h / decay.max(1e-12), contact }
 }
 
 /// Sub-steps that a frame of `frame_s` seconds needs.

@@ -25,10 +25,16 @@ pub(crate) struct Particles {
     pub slow: Vec<f32>,
     /// `wcsph`: share of its neighbourhood that fluid and solids fill, at the last look.
     pub fill: Vec<f32>,
+    /// `wcsph`: how far within the fluid it lies, 0..1, at the last look.
+    pub inner: Vec<f32>,
     /// Time since birth, s.
     pub age: Vec<f32>,
     /// Time for which the source still leads it, s.
     pub held: Vec<f32>,
+    /// `wcsph`: Laplacian of the velocity, 1/(m s); of this sub-step alone.
+    pub lx: Vec<f32>,
+    pub ly: Vec<f32>,
+    pub lz: Vec<f32>,
     pub id: Vec<u32>,
     /// Images across the sides of a periodic world: the copy and whom it is of. They stand among the others from
     /// the sort to the end of the sub-step.
@@ -89,7 +95,7 @@ impl Particles {
         (self.u[i], self.v[i], self.w[i]) = (v.x, v.y, v.z);
     }
 
-    fn columns(&mut self) -> [&mut Vec<f32>; 12] {
+    fn columns(&mut self) -> [&mut Vec<f32>; 13] {
         [
             &mut self.x,
             &mut self.y,
@@ -101,6 +107,7 @@ impl Particles {
             &mut self.aux,
             &mut self.slow,
             &mut self.fill,
+            &mut self.inner,
             &mut self.age,
             &mut self.held,
         ]
@@ -115,7 +122,7 @@ impl Particles {
         self.id.truncate(len);
         for b in newborn {
             let row = [b.position.x, b.position.y, b.position.z, b.velocity.x, b.velocity.y, b.velocity.z];
-            let row = row.into_iter().chain([b.pressure, 0.0, 0.0, 1.0, b.age, b.held]);
+            let row = row.into_iter().chain([b.pressure, 0.0, 0.0, 1.0, 0.0, b.age, b.held]);
             for (column, value) in self.columns().into_iter().zip(row) {
                 column.push(value);
             }
@@ -186,7 +193,7 @@ impl Particles {
     /// Gives the images what their owners have become.
     pub fn refresh_images(&mut self) {
         let images = std::mem::take(&mut self.images);
-        for column in [&mut self.p, &mut self.aux] {
+        for column in [&mut self.p, &mut self.aux, &mut self.lx, &mut self.ly, &mut self.lz] {
             for &[image, owner] in &images {
                 column[image as usize] = column[owner as usize];
             }
@@ -205,6 +212,9 @@ impl Particles {
     fn pad(&mut self) {
         let wanted = self.len + PAD;
         for column in self.columns() {
+            column.resize(wanted, 0.0);
+        }
+        for column in [&mut self.lx, &mut self.ly, &mut self.lz] {
             column.resize(wanted, 0.0);
         }
         self.id.resize(wanted, 0);

@@ -69,6 +69,8 @@ pub struct WcsphTwin {
     pub volume: f64,
     /// Kinematic viscosity, m²/s.
     pub viscosity: f64,
+    /// κ of the noise filter, m⁴/s.
+    pub filter: f64,
     /// η² of the viscous term, m².
     pub eta2: f64,
     /// Gravity, m/s².
@@ -93,15 +95,27 @@ impl WcsphTwin {
         all.iter().map(term).sum()
     }
 
-    /// Acceleration of particle `i` by the others, without gravity, m/s².
-    pub fn acceleration(&self, all: &[Twin], i: usize) -> DVec3 {
-        let a = all[i];
-        let term = |b: &Twin| {
-            let d = b.x - a.x;
-            let rate = 10.0 * self.viscosity * (b.v - a.v).dot(d) / (d.length_squared() + self.eta2);
-            self.volume * (rate - a.p - b.p) * self.gradient(&a, b)
+    /// Σ V ∇W at particle `i`, 1/m.
+    pub fn crowding(&self, all: &[Twin], i: usize) -> DVec3 {
+        all.iter().map(|b| self.volume * self.gradient(&all[i], b)).sum()
+    }
+
+    /// Laplacian of a field at particle `i` (Monaghan's viscous sum, for a unit viscosity).
+    pub fn laplacian(&self, all: &[Twin], i: usize, field: impl Fn(usize) -> DVec3) -> DVec3 {
+        let term = |(k, b): (usize, &Twin)| {
+            let d = b.x - all[i].x;
+            let rate = 10.0 * (field(k) - field(i)).dot(d) / (d.length_squared() + self.eta2);
+            self.volume * rate * self.gradient(&all[i], b)
         };
-        all.iter().map(term).sum()
+        all.iter().enumerate().map(term).sum()
+    }
+
+    /// Acceleration of particle `i` by the others, without gravity, m/s²; `laplacians`: those of the velocity.
+    pub fn acceleration(&self, all: &[Twin], laplacians: &[DVec3], i: usize) -> DVec3 {
+        let pressure: DVec3 =
+            all.iter().map(|b| -self.volume * (all[i].p + b.p) * self.gradient(&all[i], b)).sum();
+        let filter = self.laplacian(all, i, |k| laplacians[k]);
+        pressure + self.viscosity * laplacians[i] - self.filter * filter
     }
 
     /// ∇_a W.

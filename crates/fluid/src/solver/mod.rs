@@ -15,11 +15,12 @@ use crate::{FluidConfig, Solver};
 use pulp::Simd;
 use rayon::prelude::*;
 
-/// Kinematic viscosity that the solver of `config` adds to the stated one, m²/s.
-pub(crate) fn artificial_viscosity(config: &FluidConfig) -> f64 {
+/// Kinematic viscosity that the solver of `config` adds to the stated one in a flow of this wave number (rad/m),
+/// m²/s.
+pub(crate) fn added_viscosity(config: &FluidConfig, wave_number: f64) -> f64 {
     match config.settings.solver {
         Solver::Muller => muller::artificial_viscosity(config),
-        Solver::Wcsph => wcsph::artificial_viscosity(config),
+        Solver::Wcsph => wcsph::noise_filter(config) * wave_number * wave_number,
     }
 }
 
@@ -35,20 +36,22 @@ pub(crate) struct Pass<'a> {
     pub solids: Solids<'a>,
 }
 
-/// One row of results for each particle: what it means is the pass's own business.
+/// Accelerations of the particles, or whatever else four numbers hold: what they mean is the pass's own business.
 pub(crate) type Rows = Vec<[f32; 4]>;
 
 /// What a pass computes of one particle and its neighbours: its row, and its share of the loads on the bodies.
 pub(crate) trait RowPass: Copy + Sync {
-    fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, loads: &mut [BodyLoad]) -> [f32; 4];
+    type Row: Copy + Default + Send;
+
+    fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, loads: &mut [BodyLoad]) -> Self::Row;
 }
 
 /// One chunk of a pass, compiled for the processor at hand.
-struct Chunk<'a, P> {
+struct Chunk<'a, P: RowPass> {
     work: P,
     pass: Pass<'a>,
     first: usize,
-    rows: &'a mut [[f32; 4]],
+    rows: &'a mut [P::Row],
     loads: &'a mut [BodyLoad],
 }
 
@@ -67,18 +70,18 @@ impl<P: RowPass> pulp::WithSimd for Chunk<'_, P> {
 }
 
 /// Runs `work` over all particles.
-pub(crate) fn sweep(pass: Pass<'_>, work: impl RowPass, rows: &mut Rows) {
-    rows.resize(pass.particles.len(), [0.0; 4]);
+pub(crate) fn sweep<P: RowPass>(pass: Pass<'_>, work: P, rows: &mut Vec<P::Row>) {
+    rows.resize(pass.particles.len(), P::Row::default());
     rows.par_chunks_mut(CHUNK).enumerate().for_each(|(c, rows)| {
         pass.arch.dispatch(Chunk { work, pass, first: c * CHUNK, rows, loads: &mut [] });
     });
 }
 
 /// Like [`sweep`], with loads on `loads.len()` bodies, added to `loads` in the order of the chunks.
-pub(crate) fn sweep_with_loads(
+pub(crate) fn sweep_with_loads<P: RowPass>(
     pass: Pass<'_>,
-    work: impl RowPass,
-    rows: &mut Rows,
+    work: P,
+    rows: &mut Vec<P::Row>,
     partial: &mut Vec<BodyLoad>,
     loads: &mut [BodyLoad],
 ) {
@@ -86,7 +89,7 @@ pub(crate) fn sweep_with_loads(
     if bodies == 0 {
         return sweep(pass, work, rows);
     }
-    rows.resize(n, [0.0; 4]);
+    rows.resize(n, P::Row::default());
     partial.clear();
     partial.resize(n.div_ceil(CHUNK) * bodies, BodyLoad::default());
     let chunks = rows.par_chunks_mut(CHUNK).zip(partial.par_chunks_mut(bodies)).enumerate();

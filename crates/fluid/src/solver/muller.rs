@@ -95,6 +95,8 @@ impl Muller {
 struct Densities<'a>(&'a Muller);
 
 impl RowPass for Densities<'_> {
+    type Row = [f32; 4];
+
     #[inline(always)]
     fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, _: &mut [BodyLoad]) -> [f32; 4] {
         let (s, p) = (self.0, pass.particles);
@@ -116,6 +118,8 @@ impl RowPass for Densities<'_> {
 struct Accelerations<'a>(&'a Muller);
 
 impl RowPass for Accelerations<'_> {
+    type Row = [f32; 4];
+
     #[inline(always)]
     fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, _: &mut [BodyLoad]) -> [f32; 4] {
         let s = self.0;

@@ -118,50 +118,97 @@ fn wcsph_passes_equal_the_twin() {
     let twin = WcsphTwin {
         h,
         volume: dx.powi(3) / kernel::wendland_lattice_moment(dx, h),
-        viscosity: config.effective_viscosity() / s.rest_density,
-        eta2: 0.0025 * h * h,
+        viscosity: s.kinematic_viscosity(),
+        filter: super::wcsph::noise_filter(&config),
+        eta2: super::wcsph::ETA2 * h * h,
         gravity: s.gravity,
     };
     let solver = Wcsph::new(&config);
     each_pass(&config, |particles, grid, with_pass| {
-        particles.aux = particles.p.clone();
-        let rows = std::cell::RefCell::new(Rows::new());
+        let rates = std::cell::RefCell::new(Vec::new());
         let all = twins(particles, |_| 1000.0);
-        with_pass(particles, grid, &|pass| solver.rates(pass, &mut rows.borrow_mut()));
-        let expected: Vec<_> = (0..all.len())
-            .map(|i| {
-                let diffusion = s.density_diffusion * 0.5 * h * c * twin.diffusion(&all, i);
-                DVec3::new(twin.divergence(&all, i), diffusion, 0.0)
-            })
-            .collect();
-        let scale = expected.iter().fold(DVec3::ZERO, |a, b| a.max(b.abs()));
-        for (row, expected) in rows.borrow().iter().zip(expected) {
-            assert!((f64::from(row[0]) - expected.x).abs() < 2e-4 * scale.x);
-            assert!((f64::from(row[1]) - expected.y).abs() < 2e-4 * scale.y);
-        }
-        with_pass(particles, grid, &|pass| {
-            solver.accelerations(pass, &mut rows.borrow_mut(), &mut vec![], &mut []);
+        let each = |f: &dyn Fn(usize) -> DVec3| (0..all.len()).map(f).collect::<Vec<_>>();
+        with_pass(particles, grid, &|pass| solver.rates(pass, &mut rates.borrow_mut()));
+        let scalars = each(&|i| {
+            let diffusion = s.density_diffusion * 0.5 * h * c * twin.diffusion(&all, i);
+            DVec3::new(twin.divergence(&all, i), diffusion, 0.0)
         });
-        let expected: Vec<_> = (0..all.len()).map(|i| twin.acceleration(&all, i)).collect();
-        let scale = expected.iter().map(|a| a.length()).fold(0.0, f64::max);
-        for (row, expected) in rows.borrow().iter().zip(expected) {
-            assert_close(vector(row), expected, scale, "acceleration");
+        let laplacians = each(&|i| twin.laplacian(&all, i, |k| all[k].v));
+        let crowdings = each(&|i| twin.crowding(&all, i));
+        let got = rates.borrow();
+        assert_rows(
+            got.iter().map(|r| DVec3::new(r.divergence.into(), 0.0, 0.0)),
+            scalars.iter().map(|s| s.with_y(0.0)),
+        );
+        assert_rows(
+            got.iter().map(|r| DVec3::new(0.0, r.diffusion.into(), 0.0)),
+            scalars.iter().map(|s| s.with_x(0.0)),
+        );
+        assert_rows(got.iter().map(|r| r.laplacian.as_dvec3()), laplacians.iter().copied());
+        assert_rows(got.iter().map(|r| r.crowding.as_dvec3()), crowdings.iter().copied());
+        drop(got);
+        particles.aux = particles.p.clone();
+        for (i, r) in rates.borrow().iter().enumerate() {
+            (particles.lx[i], particles.ly[i], particles.lz[i]) = r.laplacian.into();
         }
+        let rows = std::cell::RefCell::new(Rows::new());
+        with_pass(particles, grid, &|pass| {
+            solver.accelerations(pass, &rates.borrow(), &mut rows.borrow_mut(), &mut vec![], &mut []);
+        });
+        let expected = each(&|i| twin.acceleration(&all, &laplacians, i));
+        assert_rows(rows.borrow().iter().map(vector), expected.into_iter());
     });
 }
 
+/// Each row within 2e-4 of the largest expected one.
+fn assert_rows(got: impl Iterator<Item = DVec3>, expected: impl Iterator<Item = DVec3> + Clone) {
+    let scale = expected.clone().map(|e| e.length()).fold(0.0, f64::max);
+    for (got, expected) in got.zip(expected) {
+        assert_close(got, expected, scale, "row");
+    }
+}
+
+/// The noise filter takes momentum from nobody, energy from all, and nothing from what turns as a whole.
 #[test]
 fn pair_forces_sum_to_nothing() {
     let config = config(Solver::Wcsph);
     let solver = Wcsph::new(&config);
     each_pass(&config, |particles, grid, with_pass| {
-        particles.aux = particles.p.clone();
+        let rates = std::cell::RefCell::new(Vec::new());
         let rows = std::cell::RefCell::new(Rows::new());
-        with_pass(particles, grid, &|pass| {
-            solver.accelerations(pass, &mut rows.borrow_mut(), &mut vec![], &mut []);
-        });
-        let sum: DVec3 = rows.borrow().iter().map(vector).sum();
+        let pass = |particles: &mut Particles| {
+            with_pass(particles, grid, &|pass| solver.rates(pass, &mut rates.borrow_mut()));
+            for (i, r) in rates.borrow().iter().enumerate() {
+                (particles.lx[i], particles.ly[i], particles.lz[i]) = r.laplacian.into();
+            }
+            with_pass(particles, grid, &|pass| {
+                solver.accelerations(pass, &rates.borrow(), &mut rows.borrow_mut(), &mut vec![], &mut []);
+            });
+        };
+        particles.aux = particles.p.clone();
+        pass(particles);
+        let total = |f: &dyn Fn(usize, DVec3) -> DVec3| -> DVec3 {
+            rows.borrow().iter().enumerate().map(|(i, r)| f(i, vector(r))).sum()
+        };
         let size: f64 = rows.borrow().iter().map(|r| vector(r).length()).sum();
-        assert!(sum.length() < 1e-5 * size, "{sum} of {size}");
+        assert!(total(&|_, a| a).length() < 1e-5 * size);
+        let arm = |i: usize| particles.position(i).as_dvec3();
+        let turning = total(&|i, a| arm(i).cross(a)).length();
+        let reach: f64 =
+            rows.borrow().iter().enumerate().map(|(i, r)| arm(i).cross(vector(r)).length()).sum();
+        assert!(turning < 1e-4 * reach, "{turning} of {reach}");
+
+        particles.aux.fill(0.0);
+        pass(particles);
+        let power = total(&|i, a| a * particles.velocity(i).as_dvec3()).element_sum();
+        assert!(power < 0.0);
+
+        for i in 0..particles.len() {
+            let v = Vec3::new(1.0, -2.0, 0.5).cross(particles.position(i)) + 3.0;
+            particles.set_velocity(i, v);
+        }
+        pass(particles);
+        let rest: f64 = rows.borrow().iter().map(|r| vector(r).length()).sum();
+        assert!(rest < 1e-4 * size, "{rest} of {size}");
     });
 }

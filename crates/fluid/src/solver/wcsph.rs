@@ -1,18 +1,25 @@
-//! Weakly compressible SPH with density diffusion (δ-SPH), staggered in time.
+//! Weakly compressible SPH with density diffusion and particle shifting (δ⁺-SPH), staggered in time.
 //!
 //! State is the pressure over rest density P = p/ρ₀ (m²/s²). With V the volume of a particle, f = C (1−r/H)³ V
 //! the Wendland gradient over r, d = x_j − x_i:
 //!
 //! ```text
 //! dP_i/dt = −c² Σ f (v_j−v_i)·d + δ (H/2) c Σ 2 f (P_j − P_i − g·d) + q_i           at x(t+dt), v(t+dt)
-//! a_i     = −Σ f (P̂_i + P̂_j) d + 10 ν Σ f ((v_j−v_i)·d)/(r²+η²) d + walls + g      P̂ = max(0, P + P₀ − ζ c dx div)
+//! L_i     = 10 Σ f ((v_j−v_i)·d)/(r²+η²) d                                          ∇²v where div v = 0
+//! a_i     = −Σ f (P̂_i + P̂_j) d + ν L_i − 10 κ Σ f ((L_j−L_i)·d)/(r²+η²) d + walls + g
+//! δx_i    = −σ c dx Σ f d dt                                                        within the fluid
 //! ```
+//!
+//! with P̂ = max(−T, P − ζ c dx div) + P₀, P₀ a background pressure and T a slight tension.
 //!
 //! Sources: Molteni & Colagrossi 2009 (doi:10.1016/j.cpc.2008.12.004) for the diffusion; Fourtakas et al. 2019
 //! (doi:10.1016/j.compfluid.2019.06.009) for leaving the hydrostatic part out of it; Monaghan 2005
-//! (doi:10.1088/0034-4885/68/8/R01) for the viscous term. q_i leads P slowly to the pressure of the summed
-//! density, because an integrated density forgets how many particles there are. Walls: see `wall.rs`.
-//! Pressure never pulls: a free surface has P = 0.
+//! (doi:10.1088/0034-4885/68/8/R01) for the viscous term; Lind et al. 2012 (doi:10.1016/j.jcp.2011.10.027) and Sun
+//! et al. 2017 (doi:10.1016/j.cma.2016.10.028) for the shifting: the pressure of a disordered neighbourhood is
+//! no longer needed to spread particles, and what that costs in drag falls away. The term with κ takes the viscous
+//! term twice: it stops what changes from particle to particle, leaves flow alone that is smooth over H, and can only
+//! take energy away. q_i leads P slowly to the pressure of the summed density, because an integrated density forgets
+//! how many particles there are. Walls: see `wall.rs`; they push and never pull.
 
 use super::{Pass, RowPass, Rows, sweep, sweep_with_loads};
 use crate::body::BodyLoad;
@@ -32,11 +39,32 @@ const PACKING_CLIP: f32 = 0.02;
 /// Below this share of full neighbourhood a particle lies at a free surface and packing leaves it alone.
 const FREE_SURFACE: f32 = 0.95;
 
-/// Kinematic viscosity that the solver adds to the stated one between particles, m²/s: α c H/20 (Monaghan 2005).
+/// Kinematic viscosity that the noise filter is as strong as at the particle spacing, m²/s: α c H/20 (Monaghan
+/// 2005).
 pub(crate) fn artificial_viscosity(config: &FluidConfig) -> f64 {
     let s = &config.settings;
     s.artificial_viscosity * config.sound_speed() * s.support_length() / 20.0
 }
+
+/// κ, m⁴/s: in a flow of wave number k it acts as a kinematic viscosity κ k². The viscous sum answers noise with
+/// about −60/H² of it.
+pub(crate) fn noise_filter(config: &FluidConfig) -> f64 {
+    artificial_viscosity(config) * config.settings.support_length().powi(2) / 60.0
+}
+
+/// η² of the viscous sum, in H²: it keeps the sum finite where particles meet, and takes nothing where they are a
+/// spacing apart.
+pub(crate) const ETA2: f64 = 1e-4;
+/// Tension that the fluid bears before it parts, in ρ₀ c²: a falling jet is drawn together by it. That of water's surface
+/// over a drop of a few millimetres is as large; a stronger one clumps particles.
+const TENSION: f64 = 2e-4;
+/// Least share of a moment that is taken to lie in the fluid, when the whole is found from it.
+const LEAST_FLUID: f32 = 0.4;
+/// Longest shift in a sub-step, in spacings.
+const LONGEST_SHIFT: f32 = 0.05;
+/// From this share of neighbours that are fluid to this, the noise filter sets in: at a wall or a surface the
+/// sum over one side takes any shear for noise.
+const FILTERED: [f32; 2] = [0.85, 0.95];
 
 /// Below this share a particle is spray: a drop or a sheet one particle thick.
 const SPRAY: f32 = 0.75;
@@ -56,12 +84,19 @@ pub(crate) struct Wcsph {
     sound: f32,
     diffusion: f32,
     damper: f32,
+    /// Stated kinematic viscosity, m²/s.
     viscosity: f32,
-    wall_viscosity: f32,
+    /// κ of the noise filter, m⁴/s.
+    filter: f32,
+    /// Diffusivity of the shifting, m²/s.
+    shifting: f32,
+    longest_shift: f32,
     /// Distance below which the slope of the velocity at a wall is no longer looked for, m.
     least_distance: f32,
     /// Pressure over rest density that all is under, m²/s².
     background: f32,
+    /// Lowest pressure over rest density, m²/s².
+    floor: f32,
     eta2: f32,
     gravity: Vec3,
     two_way: bool,
@@ -72,7 +107,6 @@ impl Wcsph {
         let s = &config.settings;
         let (dx, h, c) = (s.spacing, s.support_length(), config.sound_speed());
         let volume = dx.powi(3) / kernel::wendland_lattice_moment(dx, h);
-        let artificial = artificial_viscosity(config);
         Self {
             support: h as f32,
             inverse_support: (1.0 / h) as f32,
@@ -82,22 +116,25 @@ impl Wcsph {
             sound: c as f32,
             diffusion: (s.density_diffusion * 0.5 * h * c) as f32,
             damper: (s.acoustic_damping * c * dx) as f32,
-            viscosity: (s.kinematic_viscosity() + artificial) as f32,
-            wall_viscosity: s.kinematic_viscosity() as f32,
+            viscosity: s.kinematic_viscosity() as f32,
+            filter: noise_filter(config) as f32,
+            shifting: (s.shifting * c * dx) as f32,
+            longest_shift: LONGEST_SHIFT * dx as f32,
             least_distance: (0.25 * dx) as f32,
             background: (s.background_pressure / s.rest_density) as f32,
-            eta2: (0.0025 * h * h) as f32,
+            floor: -(s.background_pressure / s.rest_density + TENSION * c * c) as f32,
+            eta2: (ETA2 * h * h) as f32,
             gravity: s.gravity.as_vec3(),
             two_way: s.two_way,
         }
     }
 
-    /// Rows of [divergence 1/s, diffusion m²/s³, –, –].
-    pub fn rates(&self, pass: Pass<'_>, rows: &mut Rows) {
-        sweep(pass, Rates(self), rows);
+    /// What the pressures change by, and what the accelerations need.
+    pub fn rates(&self, pass: Pass<'_>, rates: &mut Vec<Rates>) {
+        sweep(pass, RatesPass(self), rates);
     }
 
-    /// Rows of [summed density over ρ₀, –, –, –].
+    /// Rows of [share of the neighbourhood that is filled, share that is fluid, –, –].
     pub fn packing(&self, pass: Pass<'_>, rows: &mut Rows) {
         sweep(pass, Packing(self), rows);
     }
@@ -106,20 +143,22 @@ impl Wcsph {
     pub fn accelerations(
         &self,
         pass: Pass<'_>,
+        rates: &[Rates],
         rows: &mut Rows,
         partial: &mut Vec<BodyLoad>,
         loads: &mut [BodyLoad],
     ) {
-        sweep_with_loads(pass, Accelerations(self), rows, partial, loads);
+        sweep_with_loads(pass, Accelerations { solver: self, rates }, rows, partial, loads);
     }
 
     /// Sets the packing feedback from the summed densities.
     pub fn take_packing(&self, particles: &mut Particles, rows: &Rows) {
         let c2 = self.sound * self.sound;
-        for (i, row) in rows.iter().enumerate() {
-            particles.fill[i] = row[0];
-            let error = (row[0] - 1.0 - particles.p[i] / c2).clamp(-PACKING_CLIP, PACKING_CLIP);
-            particles.slow[i] = match row[0] {
+        for (i, &[fill, fluid, ..]) in rows.iter().enumerate() {
+            particles.fill[i] = fill;
+            particles.inner[i] = ((fluid - FILTERED[0]) / (FILTERED[1] - FILTERED[0])).clamp(0.0, 1.0);
+            let error = (fill - 1.0 - particles.p[i] / c2).clamp(-PACKING_CLIP, PACKING_CLIP);
+            particles.slow[i] = match fill {
                 fill if fill < SPRAY => -particles.p[i] / SPRAY_TIME,
                 fill if fill < FREE_SURFACE => 0.0,
                 _ => c2 / PACKING_TIME * error,
@@ -127,17 +166,26 @@ impl Wcsph {
         }
     }
 
-    /// Takes the pressure over `dt` and the pressure that acts from the rates.
-    pub fn take_rates(&self, particles: &mut Particles, rows: &Rows, dt: f32) {
+    /// Takes the pressure over `dt` and the pressure that acts from the rates, and turns shift velocities into
+    /// shifts.
+    pub fn take_rates(&self, particles: &mut Particles, rates: &mut [Rates], dt: f32) {
         let c2 = self.sound * self.sound;
-        for (i, &[divergence, diffusion, ..]) in rows.iter().enumerate() {
-            let rate = diffusion + particles.slow[i] - c2 * divergence;
+        for (i, r) in rates.iter_mut().enumerate() {
+            let inside = particles.fill[i] >= FREE_SURFACE && particles.held[i] <= 0.0;
+            let shift = if inside { r.shift * dt } else { Vec3::ZERO };
+            r.shift = shift.clamp_length_max(self.longest_shift);
+            // A shifted particle takes the hydrostatic pressure of its new place.
+            let change =
+                dt * (r.diffusion + particles.slow[i] - c2 * r.divergence) + r.shift.dot(self.gravity);
             // Spray that has been squeezed lets go at once: a drop splashes on a wall and does not bounce.
-            let lets_go = particles.fill[i] < SPRAY && divergence > 0.0;
+            let lets_go = particles.fill[i] < SPRAY && r.divergence > 0.0;
             let free = lets_go || particles.held[i] > 0.0;
-            let p = if free { 0.0 } else { (particles.p[i] + dt * rate).max(-self.background) };
+            let p = if free { 0.0 } else { (particles.p[i] + change).max(self.floor) };
             particles.p[i] = p;
-            particles.aux[i] = (p - self.damper * divergence + self.background).max(0.0);
+            let acting = p - self.damper * r.divergence;
+            particles.aux[i] = acting.max(self.floor) + self.background;
+            let l = r.laplacian * particles.inner[i];
+            (particles.lx[i], particles.ly[i], particles.lz[i]) = (l.x, l.y, l.z);
         }
     }
 
@@ -147,76 +195,124 @@ impl Wcsph {
         approach * pass.solids.terms(meeting).gradient
     }
 
-    /// Acceleration by a wall: [pressure, friction].
-    fn wall_acceleration(&self, pass: &Pass<'_>, meeting: &Meeting, velocity: Vec3, p: f32) -> [Vec3; 2] {
+    /// Acceleration by a wall: [pressure, friction]. `slope`: sum of f (P_j − P_i) d over the fluid.
+    fn wall_acceleration(
+        &self,
+        pass: &Pass<'_>,
+        meeting: &Meeting,
+        velocity: Vec3,
+        p: f32,
+        slope: Vec3,
+    ) -> [Vec3; 2] {
         let terms = pass.solids.terms(meeting);
         let n = meeting.contact.normal;
-        // Wall pressure = the particle's, extrapolated with gravity as the moving wall feels it. Where the
+        // Wall pressure = the particle's, extrapolated: across the wall with gravity as the moving wall feels it,
+        // along it with the fluid's own slope, of which the sum holds the part that is not in the wall. Where the
         // fluid bears no pressure there is none to extrapolate, and a wall must not hold a droplet up.
         let field = self.gravity - meeting.acceleration;
-        let bearing = (2.0 * p / (field.length() * self.support).max(1e-9)).min(1.0);
-        let along = field.dot(n) * n;
-        let moment = terms.normal_moment * along + terms.tangent_moment * (field - along);
+        let bearing = (2.0 * p / (field.length() * self.support).max(1e-9)).clamp(0.0, 1.0);
+        let across = field.dot(n) * n;
+        let along = (slope - slope.dot(n) * n) / (1.0 - terms.tangent_moment).max(LEAST_FLUID);
+        let moment = terms.normal_moment * across + terms.tangent_moment * along;
         let push = -2.0 * p * terms.gradient * n - bearing * moment;
         // A wall pushes and never pulls.
         let push = push - push.dot(n).min(0.0) * n;
         let slip = meeting.contact.velocity - velocity;
         let slip = slip - slip.dot(n) * n;
-        let slope = slip / meeting.contact.distance.max(self.least_distance);
-        [push, self.wall_viscosity * terms.friction * slope]
+        let rate = slip / meeting.contact.distance.max(self.least_distance);
+        [push, self.viscosity * terms.friction * rate]
     }
 }
 
-#[derive(Clone, Copy)]
-struct Rates<'a>(&'a Wcsph);
+/// What the first pass finds of a particle.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Rates {
+    /// Divergence of the velocity, 1/s.
+    pub divergence: f32,
+    /// Density diffusion, m²/s³.
+    pub diffusion: f32,
+    /// Laplacian of the velocity by the fluid, 1/(m s).
+    pub laplacian: Vec3,
+    /// Σ f d over the fluid, 1/m: where the others are.
+    pub crowding: Vec3,
+    /// Velocity (m/s) of the shift, and from `take_rates` on the shift itself, m.
+    pub shift: Vec3,
+}
 
-impl RowPass for Rates<'_> {
+#[derive(Clone, Copy)]
+struct RatesPass<'a>(&'a Wcsph);
+
+impl RowPass for RatesPass<'_> {
+    type Row = Rates;
+
     #[inline(always)]
-    fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, _: &mut [BodyLoad]) -> [f32; 4] {
+    fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, _: &mut [BodyLoad]) -> Rates {
         let (s, p) = (self.0, pass.particles);
         let (xi, vi) = (p.position(i), p.velocity(i));
-        let [divergence, diffusion] = pair_rates(simd, s, pass, i);
-        let mut total = divergence * s.scale;
-        pass.solids.visit(xi, s.support, |m| total += s.wall_divergence(pass, &m, vi));
-        [total, diffusion * 2.0 * s.scale * s.diffusion, 0.0, 0.0]
+        let mut r = pair_rates(simd, s, pass, i);
+        let mut crowding = r.crowding;
+        pass.solids.visit(xi, s.support, |m| {
+            r.divergence += s.wall_divergence(pass, &m, vi);
+            crowding += pass.solids.terms(&m).gradient * m.contact.normal;
+        });
+        r.shift = -s.shifting * crowding;
+        r
     }
 }
 
 #[inline(always)]
-fn pair_rates<S: Simd>(simd: S, s: &Wcsph, pass: &Pass<'_>, i: usize) -> [f32; 2] {
+fn pair_rates<S: Simd>(simd: S, s: &Wcsph, pass: &Pass<'_>, i: usize) -> Rates {
     let p = pass.particles;
     let xi = splat3(simd, p.position(i).to_array());
     let vi = splat3(simd, p.velocity(i).to_array());
     let pi = simd.splat_f32s(p.p[i]);
     let gravity = splat3(simd, s.gravity.to_array());
     let (ih, one, zero) = (simd.splat_f32s(s.inverse_support), simd.splat_f32s(1.0), simd.splat_f32s(0.0));
+    let eta2 = simd.splat_f32s(s.eta2);
     let (mut divergence, mut diffusion) = (zero, zero);
+    let (mut laplacian, mut crowding) = ([zero; 3], [zero; 3]);
     for range in pass.grid.neighbours(i) {
         for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z, u: p.u, v: p.v, w: p.w, pj: p.p], live, {
             let d = difference(simd, xi, [x, y, z]);
-            let q = simd.mul_f32s(simd.sqrt_f32s(dot(simd, d, d)), ih);
+            let r2 = dot(simd, d, d);
+            let q = simd.mul_f32s(simd.sqrt_f32s(r2), ih);
             let t = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(one, q), zero), live);
             let f = simd.mul_f32s(simd.mul_f32s(t, t), t);
-            let dv = difference(simd, vi, [u, v, w]);
-            divergence = fma(simd, f, dot(simd, dv, d), divergence);
             let dp = simd.sub_f32s(simd.sub_f32s(pj, pi), dot(simd, gravity, d));
             diffusion = fma(simd, f, dp, diffusion);
+            add_scaled(simd, &mut crowding, f, d);
+            let opening = simd.mul_f32s(f, dot(simd, difference(simd, vi, [u, v, w]), d));
+            divergence = simd.add_f32s(divergence, opening);
+            add_scaled(simd, &mut laplacian, simd.div_f32s(opening, simd.add_f32s(r2, eta2)), d);
         });
     }
-    [simd.reduce_sum_f32s(divergence), simd.reduce_sum_f32s(diffusion)]
+    Rates {
+        divergence: simd.reduce_sum_f32s(divergence) * s.scale,
+        diffusion: simd.reduce_sum_f32s(diffusion) * (2.0 * s.scale * s.diffusion),
+        laplacian: Vec3::from(sum3(simd, laplacian)) * (10.0 * s.scale),
+        crowding: Vec3::from(sum3(simd, crowding)) * s.scale,
+        shift: Vec3::ZERO,
+    }
 }
 
 #[derive(Clone, Copy)]
-struct Accelerations<'a>(&'a Wcsph);
+struct Accelerations<'a> {
+    solver: &'a Wcsph,
+    rates: &'a [Rates],
+}
 
 impl RowPass for Accelerations<'_> {
+    type Row = [f32; 4];
+
     #[inline(always)]
     fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, loads: &mut [BodyLoad]) -> [f32; 4] {
-        let (s, p) = (self.0, pass.particles);
+        let (s, p, rates) = (self.solver, pass.particles, &self.rates[i]);
         let (xi, vi) = (p.position(i), p.velocity(i));
-        let mut total = Vec3::from(pair_acceleration(simd, s, pass, i)) * s.scale;
+        let [pressure, filter] = pair_accelerations(simd, s, pass, i);
+        let slope = pressure - 2.0 * p.aux[i] * rates.crowding;
+        let mut total = s.viscosity * rates.laplacian - filter - pressure;
         pass.solids.visit(xi, s.support, |m| {
-            let [push, drag] = s.wall_acceleration(pass, &m, vi, p.aux[i]);
+            let [push, drag] = s.wall_acceleration(pass, &m, vi, p.aux[i], slope);
             total += push + drag;
             if let (true, Some(body)) = (s.two_way, m.body) {
                 loads[body].react(push * s.mass, drag * s.mass, m.contact.arm);
@@ -226,41 +322,45 @@ impl RowPass for Accelerations<'_> {
     }
 }
 
+/// Σ f (P̂_i + P̂_j) d, and the noise filter's sum.
 #[inline(always)]
-fn pair_acceleration<S: Simd>(simd: S, s: &Wcsph, pass: &Pass<'_>, i: usize) -> [f32; 3] {
+fn pair_accelerations<S: Simd>(simd: S, s: &Wcsph, pass: &Pass<'_>, i: usize) -> [Vec3; 2] {
     let p = pass.particles;
     let xi = splat3(simd, p.position(i).to_array());
-    let vi = splat3(simd, p.velocity(i).to_array());
+    let li = splat3(simd, [p.lx[i], p.ly[i], p.lz[i]]);
     let pi = simd.splat_f32s(p.aux[i]);
     let (ih, one, zero) = (simd.splat_f32s(s.inverse_support), simd.splat_f32s(1.0), simd.splat_f32s(0.0));
-    let (nu, eta2) = (simd.splat_f32s(10.0 * s.viscosity), simd.splat_f32s(s.eta2));
-    let mut sum = [zero; 3];
+    let eta2 = simd.splat_f32s(s.eta2);
+    let (mut pressure, mut filter) = ([zero; 3], [zero; 3]);
     for range in pass.grid.neighbours(i) {
-        for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z, u: p.u, v: p.v, w: p.w, pj: p.aux], live, {
+        for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z, u: p.lx, v: p.ly, w: p.lz, pj: p.aux], live, {
             let d = difference(simd, xi, [x, y, z]);
             let r2 = dot(simd, d, d);
             let q = simd.mul_f32s(simd.sqrt_f32s(r2), ih);
             let t = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(one, q), zero), live);
             let f = simd.mul_f32s(simd.mul_f32s(t, t), t);
-            let dv = difference(simd, vi, [u, v, w]);
-            let rate = simd.div_f32s(dot(simd, dv, d), simd.add_f32s(r2, eta2));
-            let coefficient = simd.sub_f32s(simd.mul_f32s(nu, rate), simd.add_f32s(pi, pj));
-            add_scaled(simd, &mut sum, simd.mul_f32s(f, coefficient), d);
+            add_scaled(simd, &mut pressure, simd.mul_f32s(f, simd.add_f32s(pi, pj)), d);
+            let rise = simd.mul_f32s(f, dot(simd, difference(simd, li, [u, v, w]), d));
+            add_scaled(simd, &mut filter, simd.div_f32s(rise, simd.add_f32s(r2, eta2)), d);
         });
     }
-    sum3(simd, sum)
+    let filter = Vec3::from(sum3(simd, filter)) * (10.0 * s.filter * s.scale);
+    [Vec3::from(sum3(simd, pressure)) * s.scale, filter]
 }
 
 #[derive(Clone, Copy)]
 struct Packing<'a>(&'a Wcsph);
 
 impl RowPass for Packing<'_> {
+    type Row = [f32; 4];
+
     #[inline(always)]
     fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, _: &mut [BodyLoad]) -> [f32; 4] {
         let s = self.0;
-        let mut total = pair_packing(simd, s, pass, i) * s.sum_scale;
+        let fluid = pair_packing(simd, s, pass, i) * s.sum_scale;
+        let mut total = fluid;
         pass.solids.visit(pass.particles.position(i), s.support, |m| total += pass.solids.terms(&m).volume);
-        [total, 0.0, 0.0, 0.0]
+        [total, fluid, 0.0, 0.0]
     }
 }
 
