@@ -267,7 +267,7 @@ pub const SETTINGS: &[Setting<Scene>] = &[
         0.0..=1e4,
         LIVE,
         fluid.viscosity,
-        "Dynamic viscosity: water 0.001, oil 0.1, glycerine 1.4, honey 10. The solver's artificial viscosity comes on top."
+        "Dynamic viscosity: water 0.001, oil 0.1, glycerine 1.4, honey 10. What the solver adds comes on top."
     ),
     number!(
         "fluid.artificial_viscosity",
@@ -275,7 +275,23 @@ pub const SETTINGS: &[Setting<Scene>] = &[
         0.0..=1.0,
         LIVE,
         fluid.artificial_viscosity,
-        "α: what the solver adds for stability, kinematic viscosity α c H/20 (muller: eight times that)."
+        "α: what the solver adds for stability. wcsph: a filter of noise at the particle spacing, as strong there as a kinematic viscosity α c H/20. muller: eight times that, on all flow."
+    ),
+    number!(
+        "fluid.shifting",
+        "",
+        0.0..=0.5,
+        LIVE,
+        fluid.shifting,
+        "How fast particles of wcsph spread to where there is room: a diffusivity in units of c dx. 0 leaves it out."
+    ),
+    number!(
+        "fluid.background_pressure",
+        "Pa",
+        0.0..=1e7,
+        LIVE,
+        fluid.background_pressure,
+        "Pressure of wcsph that all is under: for a fluid without free surface, which may then pull."
     ),
     number!(
         "fluid.surface_tension",
