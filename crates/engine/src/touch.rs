@@ -49,6 +49,11 @@ pub(crate) fn solid_shape(shape: Shape) -> SolidShape {
     match shape {
         Shape::Sphere { radius } => SolidShape::Sphere { radius },
         Shape::Disc { radius, thickness } => SolidShape::Disc { radius, thickness },
+        Shape::Box { size } => SolidShape::Box { half: 0.5 * size },
+        // Scenes make no others yet; what has an end is felt as the ball round it.
+        Shape::Capsule { .. } | Shape::Slab { .. } | Shape::Drum { .. } => {
+            SolidShape::Sphere { radius: shape.bounding_radius() }
+        }
     }
 }
 

@@ -71,8 +71,6 @@ pub struct WcsphTwin {
     pub viscosity: f64,
     /// κ of the noise filter, m⁴/s.
     pub filter: f64,
-    /// η² of the viscous term, m².
-    pub eta2: f64,
     /// Gravity, m/s².
     pub gravity: DVec3,
 }
@@ -100,12 +98,11 @@ impl WcsphTwin {
         all.iter().map(|b| self.volume * self.gradient(&all[i], b)).sum()
     }
 
-    /// Laplacian of a field at particle `i` (Monaghan's viscous sum, for a unit viscosity).
+    /// Laplacian of a field at particle `i` (Morris's viscous sum, for a unit viscosity).
     pub fn laplacian(&self, all: &[Twin], i: usize, field: impl Fn(usize) -> DVec3) -> DVec3 {
         let term = |(k, b): (usize, &Twin)| {
-            let d = b.x - all[i].x;
-            let rate = 10.0 * (field(k) - field(i)).dot(d) / (d.length_squared() + self.eta2);
-            self.volume * rate * self.gradient(&all[i], b)
+            let slope = kernel::wendland_slope_over_r(all[i].x.distance(b.x), self.h);
+            -2.0 * self.volume * slope * (field(k) - field(i))
         };
         all.iter().enumerate().map(term).sum()
     }
