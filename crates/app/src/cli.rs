@@ -26,6 +26,7 @@ Examples:
   hapflow run tap --motion tremor             a recorded hand instead of the simulated one
   hapflow run my-scene.toml --realtime        your own scene, in real time
   hapflow scenes --settings                   every setting with its unit, range and default
+  hapflow validate jet-plate --set speed=2    the fluid's forces against their known answers
   hapflow doctor                              check this machine, and say what to do";
 
 /// The commands.
@@ -37,6 +38,8 @@ pub enum Command {
     Scenes(ScenesArgs),
     /// List the devices that can move the tool.
     Devices,
+    /// Run the fluid's cases with known answers, and say how far off it is and what it costs.
+    Validate(ValidateArgs),
     /// Check this machine and say what to do: cores, SIMD, real-time rights, timer, USB, output.
     Doctor(DoctorArgs),
 }
@@ -97,6 +100,39 @@ pub struct ScenesArgs {
     /// List every setting with its unit, range and default instead.
     #[arg(long)]
     pub settings: bool,
+}
+
+/// Arguments of `validate`.
+#[derive(Debug, Args)]
+pub struct ValidateArgs {
+    /// Cases to run; all if none is named.
+    #[arg(value_name = "CASE")]
+    pub cases: Vec<String>,
+    /// List the cases with their references and parameters instead.
+    #[arg(long)]
+    pub list: bool,
+    /// How the fluid is solved: wcsph, muller.
+    #[arg(long, value_name = "NAME")]
+    pub solver: Option<String>,
+    /// Particle spacings in m, in place of each case's own three.
+    #[arg(long, value_name = "A[,B,C]", value_delimiter = ',', allow_negative_numbers = true)]
+    pub dx: Option<Vec<f64>>,
+    /// Set a parameter of all cases that have it (NAME), of one (CASE.NAME), or of the fluid (fluid.…); may be
+    /// repeated.
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    /// Each case at its coarsest spacing and with its defaults only.
+    #[arg(long)]
+    pub quick: bool,
+    /// Exit code 1 for any goal that is missed, known shortfalls too.
+    #[arg(long)]
+    pub strict: bool,
+    /// Print one line of JSON for each case, quantity and spacing instead of the table.
+    #[arg(long)]
+    pub json: bool,
+    /// Folder for a picture of each case's convergence, made if absent.
+    #[arg(long, value_name = "DIR")]
+    pub plot: Option<PathBuf>,
 }
 
 /// Arguments of `doctor`.

@@ -1,6 +1,6 @@
-//! The program `hapflow`: runs scenes, lists scenes and devices, checks the machine.
+//! The program `hapflow`: runs scenes, lists scenes and devices, checks the machine, validates the fluid.
 //!
-//! Exit codes: 0 done, 1 a run that failed or a machine that lacks something, 2 words, values or folders that
+//! Exit codes: 0 done, 1 a run that failed, a goal that is missed or a machine that lacks something, 2 words, values or folders that
 //! cannot be used.
 #![forbid(unsafe_code)]
 
@@ -12,6 +12,7 @@ mod meter;
 mod outputs;
 mod run;
 mod summary;
+mod validate;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -35,6 +36,8 @@ fn dispatch(cli: cli::Cli) -> Result<ExitCode, run::Failure> {
         cli::Command::Run(args) => run::run(&args)?,
         cli::Command::Scenes(args) => list::scenes(args.settings),
         cli::Command::Devices => list::devices(),
+        cli::Command::Validate(args) if validate::validate(&args)? => {}
+        cli::Command::Validate(_) => return Ok(ExitCode::FAILURE),
         cli::Command::Doctor(args) if doctor::doctor(&args) => {}
         cli::Command::Doctor(_) => return Ok(ExitCode::FAILURE),
     }

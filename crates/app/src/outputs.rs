@@ -187,6 +187,7 @@ fn force_charts(scene: &Scene, rows: &[Row]) -> Vec<Chart> {
             series("y", &|r| 1e3 * r.tool.position.y),
             series("z", &|r| 1e3 * r.tool.position.z),
         ],
+        ..Chart::default()
     };
     vec![force, place]
 }

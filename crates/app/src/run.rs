@@ -1,11 +1,13 @@
 //! `hapflow run`: from words to a run, and from a run to a folder.
 
 use crate::cli::RunArgs;
+use crate::draw::error::DrawError;
 use crate::meter::Meter;
 use crate::outputs::{self, OutputError};
 use crate::summary::Summary;
 use hapflow_engine::run::{Outcome, Progress, RunOptions, real_time, virtual_clock};
 use hapflow_engine::{Scene, SceneError, Value, load, settings};
+use hapflow_validation::ValidationError;
 use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -22,9 +24,18 @@ pub enum Failure {
     /// `--set` without `=`.
     #[error("--set {0}: write it as path.to.setting=VALUE, for example fluid.viscosity=0.1")]
     Set(String),
+    /// A case that cannot be run.
+    #[error(transparent)]
+    Validation(#[from] ValidationError),
     /// A folder that cannot be written.
     #[error("--out {0}: {1}; choose another folder with --out")]
     Folder(String, std::io::Error),
+    /// A folder for pictures that cannot be made.
+    #[error("--plot {0}: {1}; choose another folder with --plot")]
+    Plot(String, std::io::Error),
+    /// A picture that could not be written.
+    #[error(transparent)]
+    Picture(#[from] DrawError),
     /// A run that went well but could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -33,7 +44,7 @@ pub enum Failure {
 impl Failure {
     /// The program's exit code.
     pub fn code(&self) -> u8 {
-        if matches!(self, Self::Output(_)) { 1 } else { 2 }
+        if matches!(self, Self::Output(_) | Self::Picture(_)) { 1 } else { 2 }
     }
 }
 

@@ -40,6 +40,35 @@ pub enum Kind {
     },
 }
 
+impl Kind {
+    /// The range in `unit` or the words, as an error or a table says it.
+    pub fn allowed(&self, unit: &str) -> String {
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        match self {
+            Self::Number { min, max } => format!("a number from {min} to {max}{unit}"),
+            Self::Integer { min, max } => format!("a whole number from {min} to {max}{unit}"),
+            Self::Bool => "true or false".into(),
+            Self::Choice(words) => format!("one of {}", words.join(", ")),
+            Self::Text => "a text in quotes".into(),
+            Self::Vector { min, max } => format!("three numbers [x, y, z], each from {min} to {max}{unit}"),
+        }
+    }
+
+    /// Whether `value` is of this kind and in its range.
+    pub fn fits(&self, value: &Value) -> bool {
+        match (self, value) {
+            (Self::Number { min, max }, Value::Number(n)) => n >= min && n <= max,
+            (Self::Integer { min, max }, Value::Number(n)) => n >= min && n <= max && n.fract() == 0.0,
+            (Self::Bool, Value::Bool(_)) | (Self::Text, Value::Text(_)) => true,
+            (Self::Choice(words), Value::Text(t)) => words.contains(&t.as_str()),
+            (Self::Vector { min, max }, Value::Vector(v)) => {
+                v.to_array().iter().all(|c| c >= min && c <= max)
+            }
+            _ => false,
+        }
+    }
+}
+
 /// One setting of a `T`.
 #[derive(Clone, Copy)]
 pub struct Setting<T> {
@@ -71,15 +100,7 @@ impl<T> Setting<T> {
 
     /// The range or the words, as an error or a table says it.
     pub fn allowed(&self) -> String {
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
-        match self.kind {
-            Kind::Number { min, max } => format!("a number from {min} to {max}{unit}"),
-            Kind::Integer { min, max } => format!("a whole number from {min} to {max}{unit}"),
-            Kind::Bool => "true or false".into(),
-            Kind::Choice(words) => format!("one of {}", words.join(", ")),
-            Kind::Text => "a text in quotes".into(),
-            Kind::Vector { min, max } => format!("three numbers [x, y, z], each from {min} to {max}{unit}"),
-        }
+        self.kind.allowed(self.unit)
     }
 
     /// Sets it in `owner`; `running` refuses what holds for a whole session.
@@ -95,23 +116,10 @@ impl<T> Setting<T> {
         }
         let bad =
             |expected: String| SceneError::BadValue { path: path.into(), value: value.to_string(), expected };
-        if !self.fits(value) {
+        if !self.kind.fits(value) {
             return Err(bad(self.allowed()));
         }
         (self.set)(owner, value).map_err(bad)
-    }
-
-    fn fits(&self, value: &Value) -> bool {
-        match (self.kind, value) {
-            (Kind::Number { min, max }, Value::Number(n)) => *n >= min && *n <= max,
-            (Kind::Integer { min, max }, Value::Number(n)) => *n >= min && *n <= max && n.fract() == 0.0,
-            (Kind::Bool, Value::Bool(_)) | (Kind::Text, Value::Text(_)) => true,
-            (Kind::Choice(words), Value::Text(t)) => words.contains(&t.as_str()),
-            (Kind::Vector { min, max }, Value::Vector(v)) => {
-                v.to_array().iter().all(|c| *c >= min && *c <= max)
-            }
-            _ => false,
-        }
     }
 }
 
@@ -746,12 +754,17 @@ fn paths<T: Named>(things: &[T]) -> impl Iterator<Item = String> {
 fn unknown(scene: &Scene, path: &str) -> SceneError {
     let all = SETTINGS.iter().map(|s| s.path.to_string()).chain(paths(&scene.sources));
     let all = all.chain(paths(&scene.obstacles)).chain(paths(&scene.more_tools));
-    let nearest = all.min_by_key(|known| distance(known, path));
-    let hint = match nearest {
-        Some(known) if distance(&known, path) <= 1 + path.len() / 3 => format!("; did you mean {known}?"),
-        _ => "; `hapflow scenes --settings` lists them all".into(),
+    let hint = match nearest(all, path) {
+        Some(known) => format!("; did you mean {known}?"),
+        None => "; `hapflow scenes --settings` lists them all".into(),
     };
     SceneError::UnknownSetting { path: path.into(), hint }
+}
+
+/// The one of `words` that is meant by `word`, if one is near enough.
+pub fn nearest(words: impl Iterator<Item = String>, word: &str) -> Option<String> {
+    let nearest = words.min_by_key(|known| distance(known, word))?;
+    (distance(&nearest, word) <= 1 + word.len() / 3).then_some(nearest)
 }
 
 /// Edits between two words (Levenshtein).

@@ -7,6 +7,8 @@ pub(crate) struct Axis {
     pub high: f64,
     /// Distance between ticks.
     pub step: f64,
+    /// Whether values are logarithms to the base 10; ticks are then at round numbers.
+    pub log: bool,
 }
 
 impl Axis {
@@ -24,7 +26,12 @@ impl Axis {
         }
         let pad = room * (high - low);
         (low, high) = (low - pad, high + pad);
-        Self { low, high, step: step((high - low) / count.max(1.0)) }
+        Self { low, high, step: step((high - low) / count.max(1.0)), log: false }
+    }
+
+    /// The same scale, of logarithms or not.
+    pub fn logarithmic(self, log: bool) -> Self {
+        Self { log, ..self }
     }
 
     /// Where `value` lies, 0 at the low end and 1 at the high end.
@@ -34,13 +41,32 @@ impl Axis {
 
     /// Values of the ticks.
     pub fn ticks(&self) -> Vec<f64> {
+        if self.log {
+            return self.round_numbers();
+        }
         let first = (self.low / self.step - 1e-9).ceil();
         let count = ((self.high / self.step + 1e-9).floor() - first).clamp(-1.0, 200.0) as i64;
         (0..=count).map(|i| (first + i as f64) * self.step).collect()
     }
 
+    /// Logarithms of 1 to 9 in each decade, of fewer of them where decades are narrow.
+    fn round_numbers(&self) -> Vec<f64> {
+        let factors: &[f64] = match self.high - self.low {
+            wide if wide > 4.0 => &[1.0],
+            wide if wide > 0.7 => &[1.0, 2.0, 5.0],
+            _ => &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0],
+        };
+        let decades = self.low.floor() as i64..=self.high.ceil() as i64;
+        let all = decades.take(100).flat_map(|d| factors.iter().map(move |f| f.log10() + d as f64));
+        all.filter(|v| (self.low..=self.high).contains(v)).collect()
+    }
+
     /// How the tick at `value` is written.
     pub fn text(&self, value: f64) -> String {
+        if self.log {
+            let places = (-(value + 1e-9).floor()).clamp(0.0, 9.0) as usize;
+            return format!("{:.places$}", 10.0_f64.powf(value));
+        }
         let places = (-self.step.log10() - 1e-9).ceil().clamp(0.0, 9.0) as usize;
         let text = format!("{:.*}", places, if value.abs() < 1e-6 * self.step { 0.0 } else { value });
         text.replace('-', "\u{2212}")
@@ -72,6 +98,17 @@ mod tests {
         let axis = Axis::holding([-0.31, 1.27].into_iter(), 0.05, 6.0);
         let texts: Vec<String> = axis.ticks().into_iter().map(|v| axis.text(v)).collect();
         assert_eq!(texts, ["0.0", "0.5", "1.0"]);
+    }
+
+    #[test]
+    fn a_logarithmic_scale_has_round_numbers() {
+        let texts = |low: f64, high: f64| -> Vec<String> {
+            let axis = Axis::holding([low.log10(), high.log10()].into_iter(), 0.0, 6.0).logarithmic(true);
+            axis.ticks().into_iter().map(|v| axis.text(v)).collect()
+        };
+        assert_eq!(texts(0.009, 0.02), ["0.009", "0.01", "0.02"]);
+        assert_eq!(texts(0.0015, 0.11), ["0.002", "0.005", "0.01", "0.02", "0.05", "0.1"]);
+        assert_eq!(texts(1e-5, 30.0), ["0.00001", "0.0001", "0.001", "0.01", "0.1", "1", "10"]);
     }
 
     #[test]

@@ -59,6 +59,20 @@ pub struct Chart {
     pub y_label: String,
     /// Its curves, later ones in front.
     pub series: Vec<Series>,
+    /// Whether both scales are logarithmic; what is not above 0 makes a gap. All panels of a picture alike.
+    pub log: bool,
+}
+
+impl Chart {
+    /// Where a point lies on the scales.
+    fn place(&self, point: &[f64; 2]) -> [f64; 2] {
+        if self.log { point.map(f64::log10) } else { *point }
+    }
+
+    /// All points on the scales.
+    fn places(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.series.iter().flat_map(|series| &series.points).map(|p| self.place(p))
+    }
 }
 
 /// Draws `charts` one below the other and writes them as a PNG file of `width` by `height` pixels.
@@ -95,9 +109,10 @@ impl Sheet {
         let bad_font = || DrawError::Chart("the lettering cannot be read".into());
         let pen = Pen::new(size).ok_or_else(bad_font)?;
         let bold = Pen::new(1.18 * size).ok_or_else(bad_font)?;
-        let xs =
-            charts.iter().flat_map(|chart| &chart.series).flat_map(|series| &series.points).map(|p| p[0]);
-        let x = Axis::holding(xs, 0.0, (width / (6.5 * size)).clamp(2.0, 12.0).into());
+        let xs = charts.iter().flat_map(Chart::places).map(|p| p[0]);
+        let log = charts.iter().any(|chart| chart.log);
+        let room = if log { 0.04 } else { 0.0 };
+        let x = Axis::holding(xs, room, (width / (6.5 * size)).clamp(2.0, 12.0).into()).logarithmic(log);
         let edges = [5.6 * size, 0.6 * size, width - 1.6 * size, height - 3.6 * size];
         Ok(Self { pen, bold, size, x, edges })
     }
@@ -120,9 +135,10 @@ impl<'a> Panel<'a> {
         let top = top + share * place as f32;
         let field =
             [left, top + head, right.max(left + 2.0), (top + share).max(top + head + 2.0)].map(f32::round);
-        let ys = chart.series.iter().flat_map(|series| &series.points).map(|p| p[1]);
+        let ys = chart.places().map(|p| p[1]);
         let count = ((field[3] - field[1]) / (2.6 * sheet.size)).clamp(2.0, 8.0);
-        Self { sheet, chart, y: Axis::holding(ys, 0.06, count.into()), field }
+        let y = Axis::holding(ys, 0.06, count.into()).logarithmic(chart.log);
+        Self { sheet, chart, y, field }
     }
 
     fn draw(&self, image: &mut Image, last: bool) {
@@ -159,7 +175,8 @@ impl<'a> Panel<'a> {
         let thin = (size / 14.0).max(1.0).round();
         for tick in self.y.ticks() {
             let y = self.up(tick).round();
-            let colour = if tick.abs() < 1e-6 * self.y.step { ZERO } else { GRID };
+            let zero = !self.y.log && tick.abs() < 1e-6 * self.y.step;
+            let colour = if zero { ZERO } else { GRID };
             fill(image, [left, y, right, y + thin], colour, 1.0);
             let text = self.y.text(tick);
             pen.write(image, left - 0.5 * size - pen.width(&text), y + 0.36 * size, &text, SOFT_INK);
@@ -216,8 +233,8 @@ impl<'a> Panel<'a> {
         let [left, top, right, bottom] = self.field;
         let mut stroke =
             Stroke::new(left as i64, top as i64, (right - left) as usize, (bottom - top) as usize);
-        let points = series.points.iter().map(|p| [self.across(p[0]), self.up(p[1])]);
-        stroke.line(points, self.thick(series));
+        let points = series.points.iter().map(|p| self.chart.place(p));
+        stroke.line(points.map(|p| [self.across(p[0]), self.up(p[1])]), self.thick(series));
         stroke.ink(image, colour, shade(series));
     }
 }
@@ -239,8 +256,11 @@ mod tests {
     fn odd_charts_are_drawn() {
         for points in [vec![], vec![[0.0, f64::NAN]], vec![[1.0, 1.0]], vec![[0.0, 1e300], [1.0, -1e300]]] {
             for (width, height) in [(0, 0), (40, 900), (640, 360)] {
-                let image = draw(&[chart(points.clone()), chart(vec![])], width, height).unwrap();
-                assert_eq!(image.pixels.len(), (image.width * image.height) as usize);
+                for log in [false, true] {
+                    let charts = [Chart { log, ..chart(points.clone()) }, Chart { log, ..chart(vec![]) }];
+                    let image = draw(&charts, width, height).unwrap();
+                    assert_eq!(image.pixels.len(), (image.width * image.height) as usize);
+                }
             }
         }
         assert_eq!(draw(&[], 64, 64).unwrap().width, 64);

@@ -1,0 +1,70 @@
+//! `hapflow validate`: runs the cases, tells what came of them, and judges.
+
+mod plot;
+mod table;
+
+use crate::cli::ValidateArgs;
+use crate::run::Failure;
+use hapflow_validation::{CASES, Case, Plan, Row, Setup, Shortfall, find, shortfalls};
+use std::io::Write;
+
+/// Runs what was asked for; true when every goal is met, but for the known shortfalls unless they count.
+pub fn validate(args: &ValidateArgs) -> Result<bool, Failure> {
+    let cases = chosen(args)?;
+    if args.list {
+        say(&table::list(&cases));
+        return Ok(true);
+    }
+    if let Some(folder) = &args.plot {
+        std::fs::create_dir_all(folder).map_err(|e| Failure::Plot(folder.display().to_string(), e))?;
+    }
+    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let plan = Plan::new(&cases, &settings(args), args.dx.clone(), args.quick, threads)?;
+    let known = shortfalls();
+    let mut good = true;
+    if !args.json {
+        say(&table::head());
+    }
+    for case in cases {
+        let rows = plan.run_case(case, progress)?;
+        tell(args, &rows, &known);
+        good &= rows.iter().all(|row| row.pass() != Some(false) || (!args.strict && is_known(row, &known)));
+        if let Some(folder) = &args.plot {
+            plot::save(&rows, &folder.join(format!("{}.png", case.name)))?;
+        }
+    }
+    Ok(good)
+}
+
+/// The cases that were named, in the order of the table; all if none was.
+fn chosen(args: &ValidateArgs) -> Result<Vec<&'static Case>, Failure> {
+    let named: Vec<_> = args.cases.iter().map(|name| find(name)).collect::<Result<_, _>>()?;
+    let wanted = |case: &&Case| named.is_empty() || named.iter().any(|n| n.name == case.name);
+    Ok(CASES.iter().filter(wanted).collect())
+}
+
+/// Everything that was set, the solver first.
+fn settings(args: &ValidateArgs) -> Vec<String> {
+    let solver = args.solver.iter().map(|s| format!("fluid.solver={s}"));
+    solver.chain(args.set.iter().cloned()).collect()
+}
+
+fn progress(setup: &Setup<'_>) {
+    eprintln!("{} at dx = {:.4} mm ...", setup.case.name, 1e3 * setup.dx);
+}
+
+/// Prints a line; a closed pipe is no reason to fail.
+fn say(line: &str) {
+    let _ = writeln!(std::io::stdout(), "{line}");
+}
+
+fn tell(args: &ValidateArgs, rows: &[Row], known: &[Shortfall]) {
+    for row in rows {
+        let line = if args.json { row.json().to_string() } else { table::line(row, is_known(row, known)) };
+        say(&line);
+    }
+}
+
+fn is_known(row: &Row, known: &[Shortfall]) -> bool {
+    known.iter().any(|s| s.case == row.case && s.quantity == row.measure.quantity)
+}
