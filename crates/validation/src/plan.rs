@@ -125,10 +125,9 @@ fn converge(rows: &mut [Row]) {
     };
     for k in 0..rows.len() {
         let all = same(rows, k);
-        if rows[k].measure.target == Target::Limit && all.len() > 1 {
-            // First order: the straight line through the measured values, at spacing 0.
+        if rows[k].measure.target == Target::Limit {
             let values: Vec<_> = all.iter().map(|r| [r.dx, r.measure.measured]).collect();
-            rows[k].reference = Some(stats::line(&values)[0]);
+            rows[k].reference = stats::limit(&values);
         } else {
             let errors: Vec<_> = all.iter().filter_map(|r| Some([r.dx, r.error()?])).collect();
             rows[k].order = stats::order(&errors);

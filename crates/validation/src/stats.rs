@@ -107,6 +107,20 @@ pub fn order(errors: &[[f64; 2]]) -> Option<f64> {
     Some(line(&logarithms)[1]).filter(|slope| logarithms.len() > 1 && slope.is_finite())
 }
 
+/// Limit of values (spacing, value) at spacing 0: that of L + s dx^p which is nearest to them, with an order p from 1 to
+/// 2, the order of the scheme at its best (Richardson's extrapolation). None for fewer than two values.
+pub fn limit(values: &Series) -> Option<f64> {
+    let at_order = |p: f64| {
+        let scaled: Vec<_> = values.iter().map(|v| [v[0].powf(p), v[1]]).collect();
+        let [limit, slope] = line(&scaled);
+        let miss: f64 = scaled.iter().map(|v| (limit + slope * v[0] - v[1]).powi(2)).sum();
+        (miss, limit)
+    };
+    let orders = (0..=10).map(|k| at_order(1.0 + 0.1 * f64::from(k)));
+    let best = orders.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, limit)| limit);
+    best.filter(|limit| values.len() > 1 && limit.is_finite())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -146,6 +160,15 @@ mod tests {
         assert!((order(&errors).unwrap() - 1.5).abs() < 1e-9);
         assert_eq!(order(&errors[..1]), None);
         assert_eq!(order(&[[0.1, 0.0], [0.05, 1.0]]), None);
+    }
+
+    #[test]
+    fn a_limit_is_found_at_either_order() {
+        for p in [1.0, 1.5, 2.0] {
+            let values: Vec<_> = [0.5, 0.4, 0.2].iter().map(|&h: &f64| [h, 7.0 - 3.0 * h.powf(p)]).collect();
+            assert!((limit(&values).unwrap() - 7.0).abs() < 1e-6, "{p}");
+        }
+        assert_eq!(limit(&[[0.5, 1.0]]), None);
     }
 
     #[test]

@@ -6,8 +6,8 @@ use hapflow_validation::Row;
 use std::path::Path;
 
 /// Width of the picture, and height of a panel, pixels.
-const WIDTH: u32 = 900;
-const PANEL: u32 = 330;
+const WIDTH: u32 = 1200;
+const PANEL: u32 = 420;
 
 /// Draws the first variant of a case's rows, all spacings.
 pub fn save(rows: &[Row], path: &Path) -> Result<(), DrawError> {

@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 /// Frequency of the shaking, Hz: too fast for waves, whose first has about 1.4 Hz in the shipped tank.
 const FREQUENCY: f64 = 5.0;
 /// Time at rest, then time of shaking, which grows for a while; its last periods count. Whole numbers of periods, s.
-const REST: f64 = 1.0;
+const REST: f64 = 0.4;
 const SHAKING: f64 = 1.4;
 const GROWTH: f64 = 0.4;
 const PERIODS: f64 = 4.0;
@@ -27,7 +27,7 @@ pub(super) const CASE: Case = Case {
         Parameter::DENSITY,
     ],
     length: "side",
-    cells: [22.0, 26.0, 31.0],
+    cells: [22.0, 25.0, 28.0],
     variants: &[],
     run,
 };

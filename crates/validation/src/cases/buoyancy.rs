@@ -35,7 +35,7 @@ pub(super) const CASE: Case = Case {
         ),
     ],
     length: "side",
-    cells: [22.0, 26.0, 31.0],
+    cells: [22.0, 25.0, 28.0],
     variants: &[
         &[("start", "lattice"), ("seed", "1")],
         &[("start", "lattice"), ("seed", "2")],

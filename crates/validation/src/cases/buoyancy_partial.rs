@@ -33,7 +33,7 @@ pub(super) const CASE: Case = Case {
         Parameter::DENSITY,
     ],
     length: "side",
-    cells: [22.0, 26.0, 31.0],
+    cells: [22.0, 25.0, 28.0],
     variants: &[&[("immersion", "0.5")], &[("immersion", "0.25")], &[("immersion", "0.75")]],
     run,
 };

@@ -13,7 +13,7 @@ pub(super) const CASE: Case = Case {
     source: "Martin & Moyce 1952 (doi:10.1098/rsta.1952.0006), square column; the goal is the best of the peers run beside it",
     parameters: &[Parameter::number("side", "m", "0.5", [0.05, 2.0], "Side of the column.")],
     length: "side",
-    cells: [28.0, 40.0, 56.0],
+    cells: [28.0, 36.0, 46.0],
     variants: &[],
     run,
 };

@@ -8,7 +8,7 @@ use crate::{Measure, Setup, ValidationError};
 use hapflow_fluid::ParticleView;
 
 /// Simulated time, in times of free fall from the column's top: it collapses, hits the far wall and comes back.
-const FALLS: f64 = 8.0;
+const FALLS: f64 = 6.0;
 
 pub(super) const CASE: Case = Case {
     name: "energy",
@@ -19,7 +19,7 @@ pub(super) const CASE: Case = Case {
         Parameter::DENSITY,
     ],
     length: "side",
-    cells: [20.0, 28.0, 40.0],
+    cells: [20.0, 26.0, 32.0],
     variants: &[],
     run,
 };

@@ -25,7 +25,7 @@ pub(super) const CASE: Case = Case {
         Parameter::DENSITY,
     ],
     length: "depth",
-    cells: [20.0, 26.0, 32.0],
+    cells: [20.0, 25.0, 30.0],
     variants: &[],
     run,
 };

@@ -8,7 +8,7 @@ use glam::DVec3;
 use hapflow_fluid::{Aabb, ParticleView};
 
 /// Times that the jet needs from the outlet to where it is measured.
-const PASSAGES: f64 = 8.0;
+const PASSAGES: f64 = 12.0;
 
 pub(super) const CASE: Case = Case {
     name: "jet-fall",

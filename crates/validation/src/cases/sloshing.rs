@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 /// Height of the wave over its length/2π, where the linear theory is within a tenth of a per cent.
 const STEEPNESS: f64 = 0.1;
 /// Periods that are run.
-const PERIODS: f64 = 5.0;
+const PERIODS: f64 = 3.0;
 /// Width after which the box repeats, in spacings.
 const WIDTH: f64 = 9.0;
 
@@ -25,7 +25,7 @@ pub(super) const CASE: Case = Case {
         Parameter::whole("mode", "1", [1.0, 3.0], "Half waves in the box."),
     ],
     length: "depth",
-    cells: [20.0, 26.0, 32.0],
+    cells: [16.0, 20.0, 24.0],
     variants: &[],
     run,
 };

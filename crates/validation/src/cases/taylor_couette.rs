@@ -27,7 +27,7 @@ pub(super) const CASE: Case = Case {
         Parameter::number("viscosity", "Pa·s", "1", [1e-3, 1e3], "Dynamic viscosity."),
     ],
     length: "inner",
-    cells: [12.0, 15.0, 19.0],
+    cells: [12.0, 14.0, 17.0],
     variants: &[],
     run,
 };
