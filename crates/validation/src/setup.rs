@@ -83,12 +83,7 @@ impl<'a> Setup<'a> {
         let table = settings::SETTINGS.iter().filter(|s| s.path.starts_with("fluid."));
         let spacing = ["fluid.spacing", "fluid.rest_particles"];
         let differing = table.filter(|s| !spacing.contains(&s.path) && s.get(&scene) != s.get(&plain));
-        let mut all: Vec<_> = own.chain(differing.map(|s| (s.path.to_string(), s.get(&scene)))).collect();
-        // No scene has this one: its fluid has a free surface.
-        if fluid.background_pressure != plain.fluid.background_pressure {
-            all.push(("fluid.background_pressure".into(), Value::Number(fluid.background_pressure)));
-        }
-        all
+        own.chain(differing.map(|s| (s.path.to_string(), s.get(&scene)))).collect()
     }
 
     /// A fluid of the shipped configuration in `world`, with what was chosen, and with the case's density and
