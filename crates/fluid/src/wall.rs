@@ -80,7 +80,7 @@ impl WallTable {
 }
 
 fn integrate(support: f64, d: f64, cap: &impl Fn(f64, f64) -> f64) -> WallTerms {
-    const SHELLS: usize = 1000;
+    const SHELLS: usize = 250;
     let ds = support / SHELLS as f64;
     let [mut volume, mut gradient, mut normal, mut tangent] = [0.0; 4];
     for m in 0..SHELLS {
