@@ -283,7 +283,7 @@ pub const SETTINGS: &[Setting<Scene>] = &[
         0.0..=1.0,
         LIVE,
         fluid.artificial_viscosity,
-        "α: what the solver adds for stability. wcsph: a filter of noise at the particle spacing, as strong there as a kinematic viscosity α c H/20. muller: eight times that, on all flow."
+        "α: what the solver adds for stability. wcsph: a filter of noise at the particle spacing, as strong there as a kinematic viscosity α c H/20. muller: 1.6 times that, on all flow."
     ),
     number!(
         "fluid.shifting",

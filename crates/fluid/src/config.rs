@@ -53,7 +53,7 @@ pub struct FluidSettings {
     /// Density diffusion δ of `wcsph`, dimensionless.
     pub density_diffusion: f64,
     /// Artificial viscosity α, dimensionless. `wcsph`: against noise at the particle spacing it is as strong as a
-    /// kinematic viscosity α c H/20, and it leaves smooth flow alone. `muller`, which boils without it: eight times
+    /// kinematic viscosity α c H/20, and it leaves smooth flow alone. `muller`, which boils without it: 1.6 times
     /// that, on all flow. See [`FluidConfig::effective_viscosity`].
     pub artificial_viscosity: f64,
     /// Particle shifting of `wcsph`: how fast particles spread to where there is room, a diffusivity in units of
@@ -94,8 +94,8 @@ impl Default for FluidSettings {
             stiffness: 100.0,
             cohesion: 0.0,
             sound_speed: 0.0,
-            density_diffusion: 0.1,
-            artificial_viscosity: 0.02,
+            density_diffusion: 0.2,
+            artificial_viscosity: 0.1,
             shifting: 0.07,
             acoustic_damping: 0.5,
             background_pressure: 0.0,

@@ -377,7 +377,8 @@ impl Fluid {
             let broken = !(position.is_finite() && p.velocity(i).is_finite());
             self.degraded |= broken;
             let at = position.as_dvec3();
-            let gone = !config.world.bounds.contains(at) || config.world.sinks.iter().any(|s| s.contains(at));
+            let gone = self.periodic.has_left(&config.world.bounds, position)
+                || config.world.sinks.iter().any(|s| s.contains(at));
             let aged = lifetime > 0.0 && p.age[i] > lifetime;
             self.dead.push(broken || gone || aged || p.is_image(i));
         }
@@ -431,15 +432,12 @@ impl Fluid {
             }
             p.age[i] += dt;
             let (position, mut velocity) = (p.position(i), p.velocity(i));
-            // Behind its outlet a jet falls as one; what its source still leads gives no way to the others.
-            let mut push = gravity;
             if p.held[i] > 0.0 {
                 p.held[i] -= dt;
             } else {
                 let [x, y, z, _] = self.rows[i];
-                push += Vec3::new(x, y, z);
+                velocity = (velocity + (Vec3::new(x, y, z) + gravity) * dt) * decay;
             }
-            velocity = (velocity + push * dt) * decay;
             let speed = velocity.length();
             if speed > step.cap {
                 velocity *= step.cap / speed;

@@ -36,7 +36,7 @@ pub fn step_limits(config: &FluidConfig, speed: f64) -> StepLimits {
     let c = config.sound_speed() + speed;
     let nu = s.kinematic_viscosity();
     let (courant, decay) = match s.solver {
-        Solver::Wcsph => (0.8, nu / 0.02 + wcsph::artificial_viscosity(config) / 0.007),
+        Solver::Wcsph => (0.8, nu / 0.015 + wcsph::artificial_viscosity(config) / 0.007),
         Solver::Muller => (0.4, (nu + muller::artificial_viscosity(config)) / 0.04),
     };
     // Mixed gives every other sub-step the push of two.

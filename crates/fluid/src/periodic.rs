@@ -4,8 +4,8 @@
 //! the particles near it, one period away, made before each sort and gone after the sub-step. The pair loops know
 //! nothing of it, and a world that does not repeat makes none.
 
-use crate::World;
 use crate::particles::Particles;
+use crate::{Aabb, World};
 use glam::Vec3;
 
 /// The repeating axes of a world: where the period begins and how long it is, m.
@@ -37,6 +37,12 @@ impl Periodic {
             }
         }
         p
+    }
+
+    /// Whether `p` has left `bounds`, which an axis that repeats has no end in.
+    pub fn has_left(&self, bounds: &Aabb, p: Vec3) -> bool {
+        let (p, min, max) = (p.as_dvec3(), bounds.min, bounds.max);
+        (0..3).any(|a| self.axes[a].is_none() && !(min[a]..=max[a]).contains(&p[a]))
     }
 
     /// The shortest arm among those to the images of a point.
@@ -78,7 +84,6 @@ impl Periodic {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Aabb;
     use crate::particles::Newborn;
     use glam::DVec3;
 
@@ -95,6 +100,10 @@ mod tests {
         assert!(p.wrap(Vec3::splat(-1.0 - 1e-9)).x < 1.0);
         assert_eq!(p.shortest(Vec3::new(1.5, 1.5, -2.5)), Vec3::new(-0.5, 1.5, 1.5));
         assert!(!Periodic::new(&world([false; 3])).any());
+        // A side that single precision puts beside its place is no way out.
+        let bounds = Aabb { min: DVec3::splat(-0.1), max: DVec3::splat(0.1) };
+        let beside = Vec3::new(-0.1 - 1e-8, 0.0, 0.1 + 1e-8);
+        assert!(!p.has_left(&bounds, beside) && p.has_left(&bounds, Vec3::Y));
     }
 
     #[test]

@@ -98,11 +98,12 @@ impl WcsphTwin {
         all.iter().map(|b| self.volume * self.gradient(&all[i], b)).sum()
     }
 
-    /// Laplacian of a field at particle `i` (Morris's viscous sum, for a unit viscosity).
+    /// Laplacian of a field at particle `i` (the viscous sum, for a unit viscosity).
     pub fn laplacian(&self, all: &[Twin], i: usize, field: impl Fn(usize) -> DVec3) -> DVec3 {
         let term = |(k, b): (usize, &Twin)| {
             let slope = kernel::wendland_slope_over_r(all[i].x.distance(b.x), self.h);
-            -2.0 * self.volume * slope * (field(k) - field(i))
+            let d = b.x - all[i].x;
+            -30.0 / (self.h * self.h) * self.volume * slope * (field(k) - field(i)).dot(d) * d
         };
         all.iter().enumerate().map(term).sum()
     }

@@ -1,10 +1,10 @@
 //! Walls and bodies as analytic volumes: what the solid part of a particle's support adds to its sums.
 //!
-//! For a particle at signed distance d from the surface, with the solid S filling part of its support, three
+//! For a particle at signed distance d from the surface, with the solid S filling part of its support, four
 //! integrals of the Wendland kernel over S depend on d alone (for a plane, and for a sphere of known radius):
-//! λ = ∫W, g = n·∫∇W, and the tensor ∫(x'−x)⊗∇W = tn n⊗n + tt (I − n⊗n). They give friction too: a velocity
-//! that goes on linearly into the wall and has the wall's value at its surface adds −2g/d of the slip to the viscous
-//! sum, so that a uniform shear ends at the wall without a fault. With a wall pressure extrapolated linearly (gravity and the wall's acceleration
+//! λ = ∫W, g = n·∫∇W, and the tensor ∫(x'−x)⊗∇W = tn n⊗n + tt (I − n⊗n); and the viscous sum for a velocity
+//! that goes on linearly into the wall and has the wall's value at its surface, so that a uniform shear ends at
+//! the wall without a fault. With a wall pressure extrapolated linearly (gravity and the wall's acceleration
 //! included), a fluid at rest meets Archimedes' force of the true shape at any support. Ideas: density maps
 //! (Koschier & Bender 2017, doi:10.1145/3099564.3099565), semi-analytic boundaries (Winchenbach, Akhunov & Kolb
 //! 2020, doi:10.1145/3414685.3417829), pressure and velocity extrapolation (Adami, Hu & Adams 2012,
@@ -25,6 +25,8 @@ pub(crate) struct WallTerms {
     /// tn and tt.
     pub normal_moment: f32,
     pub tangent_moment: f32,
+    /// Friction: viscous sum over the solid for a unit slope of the velocity at the wall, 1/m.
+    pub friction: f32,
 }
 
 /// The integrals tabulated over d from −H/2 to H.
@@ -75,6 +77,7 @@ impl WallTable {
             gradient: mix(a.gradient, b.gradient),
             normal_moment: mix(a.normal_moment, b.normal_moment),
             tangent_moment: mix(a.tangent_moment, b.tangent_moment),
+            friction: mix(a.friction, b.friction),
         }
     }
 }
@@ -82,7 +85,7 @@ impl WallTable {
 fn integrate(support: f64, d: f64, cap: &impl Fn(f64, f64) -> f64) -> WallTerms {
     const SHELLS: usize = 250;
     let ds = support / SHELLS as f64;
-    let [mut volume, mut gradient, mut normal, mut tangent] = [0.0; 4];
+    let [mut volume, mut gradient, mut normal, mut tangent, mut friction] = [0.0; 5];
     for m in 0..SHELLS {
         let s = (m as f64 + 0.5) * ds;
         let mu = cap(d, s).clamp(-1.0, 1.0);
@@ -93,12 +96,14 @@ fn integrate(support: f64, d: f64, cap: &impl Fn(f64, f64) -> f64) -> WallTerms 
         gradient += shell * slope * (1.0 - mu * mu) / 2.0;
         normal -= shell * s * slope * cube / 3.0;
         tangent -= shell * s * slope * ((1.0 - mu) / 2.0 - cube / 6.0);
+        friction -= shell * slope * 3.75 * (s / support * (1.0 - mu * mu)).powi(2);
     }
     WallTerms {
         volume: volume as f32,
         gradient: gradient as f32,
         normal_moment: normal as f32,
         tangent_moment: tangent as f32,
+        friction: friction as f32,
     }
 }
 

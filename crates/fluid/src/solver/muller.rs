@@ -21,13 +21,13 @@ use std::f64::consts::PI;
 /// Time in which forgiven density fades, s.
 const FORGIVE_TIME: f32 = 0.25;
 
-/// Kinematic viscosity that the solver adds to the stated one, m²/s: 8 α c H/20.
+/// Kinematic viscosity that the solver adds to the stated one, m²/s: 1.6 α c H/20.
 ///
 /// One kernel for density and another for pressure do not conserve energy together: a tank at rest heats up
 /// and boils over unless the viscosity is at least 0.15 c H/20 (measured at two spacings).
 pub(crate) fn artificial_viscosity(config: &FluidConfig) -> f64 {
     let s = &config.settings;
-    8.0 * s.artificial_viscosity * config.sound_speed() * s.support_length() / 20.0
+    1.6 * s.artificial_viscosity * config.sound_speed() * s.support_length() / 20.0
 }
 
 /// Constants of one configuration.
