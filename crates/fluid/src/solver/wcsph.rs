@@ -190,12 +190,6 @@ impl Wcsph {
         }
     }
 
-    /// What a wall does to the divergence.
-    fn wall_divergence(&self, pass: &Pass<'_>, meeting: &Meeting, velocity: Vec3) -> f32 {
-        let approach = (meeting.contact.velocity - velocity).dot(meeting.contact.normal);
-        approach * pass.solids.terms(meeting).gradient
-    }
-
     /// Acceleration by a wall: [pressure, friction]. `slope`: sum of f (P_j − P_i) d over the fluid.
     fn wall_acceleration(
         &self,
@@ -253,8 +247,9 @@ impl RowPass for RatesPass<'_> {
         let mut r = pair_rates(simd, s, pass, i);
         let mut crowding = r.crowding;
         pass.solids.visit(xi, s.support, |m| {
-            r.divergence += s.wall_divergence(pass, &m, vi);
-            crowding += pass.solids.terms(&m).gradient * m.contact.normal;
+            let (gradient, n) = (pass.solids.terms(&m).gradient, m.contact.normal);
+            r.divergence += (m.contact.velocity - vi).dot(n) * gradient;
+            crowding += gradient * n;
         });
         r.shift = -s.shifting * crowding;
         r
