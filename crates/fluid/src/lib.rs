@@ -3,7 +3,8 @@
 //! A [`FluidBackend`] takes a [`FluidConfig`], steps one *fluid frame* at a time while the bodies follow the
 //! motion they are given, and answers with the load of the fluid on each body. Backends:
 //! [`CpuBackend`] (solvers [`Solver::Muller`] and [`Solver::Wcsph`], rayon and SIMD) and [`AnalyticJet`]
-//! (closed form). [`twin`] is the plain scalar oracle that tests compare with.
+//! (closed form). [`twin`] is the plain scalar oracle that tests compare with, and [`ControlVolume`] the balance of
+//! momentum that knows nothing of loads.
 //!
 //! SI units, right-handed, y up; f32 in the particles, f64 at the border. Nothing here knows of devices,
 //! threads of others or haptics.
@@ -13,6 +14,7 @@ mod analytic_jet;
 mod backend;
 mod body;
 mod config;
+mod control_volume;
 mod cpu;
 mod emitter;
 mod grid;
@@ -35,6 +37,7 @@ pub use body::{BodyDrive, BodyLoad, BodyMotion, BodySample, BodyState, MIN_MASS_
 pub use config::{
     Aabb, BodyConfig, FluidConfig, FluidSettings, InteractionMode, OpenBox, Solver, Source, World,
 };
+pub use control_volume::ControlVolume;
 pub use cpu::CpuBackend;
 pub use limits::{StepLimits, step_limits};
 pub use shape::Shape;

@@ -10,7 +10,6 @@
 
 mod case;
 mod cases;
-mod control_volume;
 mod error;
 mod measure;
 mod plan;

@@ -2,11 +2,10 @@
 //! the spacing shrinks.
 
 use crate::case::{Case, Parameter};
-use crate::control_volume::ControlVolume;
 use crate::run::{Report, Run};
 use crate::{Measure, Setup, ValidationError, worlds};
 use glam::DVec3;
-use hapflow_fluid::{Aabb, Shape};
+use hapflow_fluid::{Aabb, ControlVolume, Shape};
 
 /// Simulated time, s.
 const DURATION: f64 = 2.0;

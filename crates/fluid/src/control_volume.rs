@@ -7,9 +7,8 @@
 //! The box must cut only free streams, whose pressure is nothing. See any text on fluid mechanics, for instance
 //! Batchelor 1967, An Introduction to Fluid Dynamics, section 3.2 (doi:10.1017/CBO9780511800955).
 
-use crate::run::vectors;
-use glam::DVec3;
-use hapflow_fluid::{Aabb, ParticleView};
+use crate::{Aabb, ParticleView};
+use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
 /// Velocities by the particles' numbers.
@@ -17,7 +16,7 @@ type Velocities = HashMap<u32, DVec3>;
 
 /// The water inside a box.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ControlVolume {
+pub struct ControlVolume {
     /// The box.
     pub volume: Aabb,
     /// Mass of a particle, kg.
@@ -49,6 +48,11 @@ impl ControlVolume {
         let rows = view.ids.iter().zip(vectors(&view.velocities)).zip(places);
         rows.filter(|(_, here)| *here).map(|((&id, v), _)| (id, v)).collect()
     }
+}
+
+/// Rows of a snapshot in f64.
+fn vectors(rows: &[[f32; 3]]) -> impl Iterator<Item = DVec3> {
+    rows.iter().map(|r| Vec3::from(*r).as_dvec3())
 }
 
 fn all(view: &ParticleView) -> Velocities {
