@@ -8,13 +8,14 @@ use crate::backend::{FluidBackend, FluidError, FrameInput, FrameOutput, Particle
 use crate::body::{Body, BodyLoad, BodyNow, BodyTables, Medium};
 use crate::emitter::Emitter;
 use crate::grid::Grid;
+use crate::neighbours::Neighbours;
 use crate::particles::{Newborn, Particles};
 use crate::periodic::Periodic;
 use crate::restack::restack;
 use crate::solids::{Meeting, Solids, Walls};
 use crate::solver::muller::Muller;
 use crate::solver::wcsph::{PACKING_INTERVAL, Rates, Wcsph};
-use crate::solver::{Pass, Rows};
+use crate::solver::{self, Pass, Rows, Scratch};
 use crate::wall::WallTable;
 use crate::{BodyMotion, FluidConfig, InteractionMode, Solver, limits, pools};
 use glam::{DVec3, Vec3};
@@ -53,7 +54,7 @@ impl CpuBackend {
         Ok(Self {
             config: config.clone(),
             pool,
-            arch: pulp::Arch::new(),
+            arch: solver::arch(),
             fluid,
             output: FrameOutput::default(),
             ready: false,
@@ -123,9 +124,10 @@ struct Fluid {
     /// Interaction has just been switched on: forgive the overlaps that it finds.
     forgive: bool,
     grid: Grid,
+    neighbours: Neighbours,
+    scratch: Scratch,
     rows: Rows,
     rates: Vec<Rates>,
-    partial: Vec<BodyLoad>,
     dead: Vec<bool>,
     images: Vec<(u32, Vec3)>,
     newborn: Vec<Newborn>,
@@ -170,9 +172,10 @@ impl Fluid {
             max_speed: 0.0,
             forgive: false,
             grid: Grid::default(),
+            neighbours: Neighbours::default(),
+            scratch: Scratch::default(),
             rows: Rows::new(),
             rates: Vec::new(),
-            partial: Vec::new(),
             dead: Vec::new(),
             images: Vec::new(),
             newborn: Vec::new(),
@@ -310,6 +313,9 @@ impl Fluid {
         if self.interacts(config.settings.mode) {
             // In mixed mode a sub-step with forces gives the push of the next one too.
             let mixed = config.settings.mode == InteractionMode::Mixed;
+            let s = &config.settings;
+            let (spacing, support) = (s.spacing as f32, s.support_length() as f32);
+            self.neighbours.find(arch, &self.grid, &self.particles, spacing, support);
             self.forces(arch, if mixed { 2.0 * step.dt } else { step.dt });
             if mixed {
                 self.rows.as_flattened_mut().iter_mut().for_each(|a| *a *= 2.0);
@@ -359,7 +365,7 @@ impl Fluid {
             self.particles.add_images(&self.images);
             self.dead.resize(self.particles.len(), false);
         }
-        self.grid.sort(&mut self.particles, support, &self.dead);
+        self.grid.sort(&mut self.particles, config.settings.spacing as f32, support, &self.dead);
         if self.periodic.any() {
             self.particles.link_images(&self.grid.order, &self.images, first);
         }
@@ -390,27 +396,27 @@ impl Fluid {
         let dt = dt as f32;
         macro_rules! pass {
             () => {
-                Pass { arch, particles: &self.particles, grid: &self.grid, solids }
+                Pass { arch, particles: &self.particles, neighbours: &self.neighbours, solids }
             };
         }
         match self.method {
             Method::Muller(m) => {
                 self.rates.clear();
-                m.densities(pass!(), &mut self.rows);
+                m.densities(pass!(), &mut self.scratch, &mut self.rows);
                 m.take_densities(&mut self.particles, &self.rows, self.forgive, dt);
                 self.particles.refresh_images();
-                m.accelerations(pass!(), &mut self.rows);
+                m.accelerations(pass!(), &mut self.scratch, &mut self.rows);
             }
             Method::Wcsph(w) => {
                 if self.substep.is_multiple_of(PACKING_INTERVAL) {
-                    w.packing(pass!(), &mut self.rows);
+                    w.packing(pass!(), &mut self.scratch, &mut self.rows);
                     w.take_packing(&mut self.particles, &self.rows);
                 }
-                w.rates(pass!(), &mut self.rates);
+                w.rates(pass!(), &mut self.scratch, &mut self.rates);
                 w.take_rates(&mut self.particles, &mut self.rates, dt);
                 self.particles.refresh_images();
-                let rates = &self.rates;
-                w.accelerations(pass!(), rates, &mut self.rows, &mut self.partial, &mut self.step_loads);
+                let (rates, scratch) = (&self.rates, &mut self.scratch);
+                w.accelerations(pass!(), rates, scratch, &mut self.rows, &mut self.step_loads);
             }
         }
         self.forgive = false;

@@ -1,40 +1,46 @@
-//! Uniform grid with cell side = kernel support; particles sorted by cell with a stable counting sort.
+//! Sorts the particles into upright columns two spacings wide, and in each column by height.
 //!
-//! Cells run along x first, so the three neighbours of a cell in x are one range of particles, and the
-//! neighbours of a particle are nine ranges. One empty layer of cells all round saves every edge test.
+//! Runs of eight then lie in a cube of about two spacings (after Páll & Hess 2013, doi:10.1016/j.cpc.2013.06.003), and
+//! what lies between two heights of a column is one range. Stable counting sort, so that nothing depends on threads.
 
 use crate::particles::Particles;
 use std::ops::Range;
 
 /// Most cells; a wider spread of particles gets larger cells.
 const MAX_CELLS: f32 = 4e6;
+/// Side of a column, in spacings.
+const WIDTH: f32 = 2.0;
+/// Height of a cell, in supports.
+const HEIGHT: f32 = 0.5;
 
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Grid {
-    inverse_cell: f32,
+    /// Width (x and z) and height of a cell, m.
+    width: f32,
+    height: f32,
     origin: [f32; 3],
+    /// Cells along x, y, z.
     dims: [usize; 3],
-    /// First particle of each cell, and the end of the last.
+    /// First particle of each cell, and the end of the last. Cells run along y first, then x.
     start: Vec<u32>,
-    /// Cell of each particle, before and after the sort.
-    unsorted: Vec<u32>,
+    /// Cell of each particle before the sort.
     cell: Vec<u32>,
     /// Where each particle stood before the last sort.
     pub order: Vec<u32>,
 }
 
 impl Grid {
-    /// Sorts `particles` by cell and drops those for which `dead` holds.
-    pub fn sort(&mut self, particles: &mut Particles, support: f32, dead: &[bool]) {
-        self.lay_out(particles, support, dead);
+    /// Sorts `particles` and drops those for which `dead` holds.
+    pub fn sort(&mut self, particles: &mut Particles, spacing: f32, support: f32, dead: &[bool]) {
+        self.lay_out(particles, spacing, support, dead);
         let cells = self.dims.iter().product::<usize>();
         // Counted two places on: the sums then stand one on, and the scatter moves each to its own place.
         self.start.clear();
         self.start.resize(cells + 2, 0);
-        self.unsorted.clear();
+        self.cell.clear();
         for (i, &dead) in dead.iter().enumerate().take(particles.len()) {
             let cell = if dead { u32::MAX } else { self.cell_at(particles, i) };
-            self.unsorted.push(cell);
+            self.cell.push(cell);
             if cell != u32::MAX {
                 self.start[cell as usize + 2] += 1;
             }
@@ -45,24 +51,40 @@ impl Grid {
             *count = sum;
         }
         self.scatter(sum as usize);
+        self.order_by_height(&particles.y);
         particles.permute(&self.order);
     }
 
-    /// Stable: particles of one cell keep their order, so the result never depends on threads.
+    /// Puts each particle into its cell.
     fn scatter(&mut self, kept: usize) {
         self.order.resize(kept, 0);
-        self.cell.resize(kept, 0);
-        for (i, &cell) in self.unsorted.iter().enumerate() {
+        for (i, &cell) in self.cell.iter().enumerate() {
             if cell != u32::MAX {
                 let slot = &mut self.start[cell as usize + 1];
                 self.order[*slot as usize] = i as u32;
-                self.cell[*slot as usize] = cell;
                 *slot += 1;
             }
         }
     }
 
-    fn lay_out(&mut self, p: &Particles, support: f32, dead: &[bool]) {
+    /// Orders each cell from the lowest up, by insertion: since the last time few have changed places.
+    fn order_by_height(&mut self, y: &[f32]) {
+        for next in 1..self.order.len() {
+            let i = self.order[next] as usize;
+            let mut k = next;
+            while k > 0 {
+                let before = self.order[k - 1] as usize;
+                if self.cell[before] != self.cell[i] || y[before] <= y[i] {
+                    break;
+                }
+                self.order[k] = before as u32;
+                k -= 1;
+            }
+            self.order[k] = i as u32;
+        }
+    }
+
+    fn lay_out(&mut self, p: &Particles, spacing: f32, support: f32, dead: &[bool]) {
         let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         for i in (0..p.len()).filter(|&i| !dead[i]) {
             for (axis, value) in [p.x[i], p.y[i], p.z[i]].into_iter().enumerate() {
@@ -73,34 +95,62 @@ impl Grid {
         if low[0] > high[0] {
             (low, high) = ([0.0; 3], [0.0; 3]);
         }
-        let mut cell = support;
-        let count = |cell: f32| (0..3).map(|a| (high[a] - low[a]) / cell + 3.0).product::<f32>();
-        while count(cell) > MAX_CELLS {
-            cell *= 1.3;
+        let mut side = [WIDTH * spacing, HEIGHT * support, WIDTH * spacing];
+        let cells = |side: [f32; 3], axis: usize| (high[axis] - low[axis]) / side[axis] + 1.0;
+        while (0..3).map(|a| cells(side, a)).product::<f32>() > MAX_CELLS {
+            side = side.map(|s| s * 1.3);
         }
-        self.inverse_cell = 1.0 / cell;
-        self.origin = low.map(|l| l - cell);
-        self.dims = std::array::from_fn(|a| ((high[a] - low[a]) / cell) as usize + 3);
+        [self.width, self.height, _] = side;
+        self.origin = low;
+        self.dims = std::array::from_fn(|a| cells(side, a) as usize);
+    }
+
+    /// Number of the cell along `axis` at `value`; outside the grid the first or last.
+    fn along(&self, axis: usize, value: f32) -> usize {
+        let side = if axis == 1 { self.height } else { self.width };
+        (((value - self.origin[axis]) / side) as usize).min(self.dims[axis] - 1)
     }
 
     fn cell_at(&self, p: &Particles, i: usize) -> u32 {
-        let along = |value: f32, axis: usize| {
-            let k = ((value - self.origin[axis]) * self.inverse_cell) as usize;
-            k.clamp(1, self.dims[axis] - 2)
-        };
-        let (x, y, z) = (along(p.x[i], 0), along(p.y[i], 1), along(p.z[i], 2));
-        ((z * self.dims[1] + y) * self.dims[0] + x) as u32
+        let (x, y, z) = (self.along(0, p.x[i]), self.along(1, p.y[i]), self.along(2, p.z[i]));
+        self.first_cell(x, z) as u32 + y as u32
     }
 
-    /// The nine ranges of particles that may touch particle `i`, itself included.
-    #[inline]
-    pub fn neighbours(&self, i: usize) -> [Range<usize>; 9] {
-        let cell = self.cell[i] as usize;
-        let (nx, plane) = (self.dims[0], self.dims[0] * self.dims[1]);
-        std::array::from_fn(|k| {
-            let row = cell - plane - nx + (k / 3) * plane + (k % 3) * nx;
-            self.start[row - 1] as usize..self.start[row + 2] as usize
-        })
+    /// The lowest cell of a column.
+    fn first_cell(&self, x: usize, z: usize) -> usize {
+        (z * self.dims[0] + x) * self.dims[1]
+    }
+
+    /// The particles of each column in order.
+    pub fn columns(&self) -> impl Iterator<Item = Range<usize>> {
+        let height = self.dims[1];
+        (0..self.dims[0] * self.dims[2]).map(move |c| self.range(c * height, (c + 1) * height))
+    }
+
+    /// Calls `visit` with ranges that hold all particles within `reach` of the box from `low` to `high`.
+    pub fn near(&self, low: [f32; 3], high: [f32; 3], reach: f32, mut visit: impl FnMut(Range<usize>)) {
+        let span = |axis: usize| self.along(axis, low[axis] - reach)..=self.along(axis, high[axis] + reach);
+        for z in span(2) {
+            let beside = self.gap(2, z, low, high);
+            for x in span(0) {
+                let square = reach * reach - beside * beside - self.gap(0, x, low, high).powi(2);
+                if square > 0.0 {
+                    let (column, rest) = (self.first_cell(x, z), square.sqrt());
+                    let (bottom, top) = (self.along(1, low[1] - rest), self.along(1, high[1] + rest));
+                    visit(self.range(column + bottom, column + top + 1));
+                }
+            }
+        }
+    }
+
+    /// How far the `k`-th column along `axis` lies from the box, m.
+    fn gap(&self, axis: usize, k: usize, low: [f32; 3], high: [f32; 3]) -> f32 {
+        let side = self.origin[axis] + k as f32 * self.width;
+        (side - high[axis]).max(low[axis] - side - self.width).max(0.0)
+    }
+
+    fn range(&self, first: usize, end: usize) -> Range<usize> {
+        self.start[first] as usize..self.start[end] as usize
     }
 }
 
@@ -125,20 +175,43 @@ mod tests {
     }
 
     #[test]
-    fn ranges_hold_every_neighbour_once() {
+    fn columns_hold_every_particle_once_from_the_lowest_up() {
         for size in [0.05, 0.5, 3.0] {
-            let (support, mut p, mut grid) = (0.1, cloud(300, size), Grid::default());
-            grid.sort(&mut p, support, &vec![false; 300]);
-            for i in 0..p.len() {
-                let seen: Vec<usize> = grid.neighbours(i).into_iter().flatten().collect();
-                let mut unique = seen.clone();
-                unique.dedup();
-                assert_eq!(seen.len(), unique.len());
-                for j in 0..p.len() {
-                    if p.position(i).distance(p.position(j)) <= support {
-                        assert!(seen.contains(&j), "{i} misses {j} at size {size}");
+            let (mut p, mut grid) = (cloud(300, size), Grid::default());
+            grid.sort(&mut p, 0.04, 0.1, &[false; 300]);
+            let mut next = 0;
+            for column in grid.columns() {
+                assert_eq!(column.start, next);
+                next = column.end;
+                assert!(column.clone().skip(1).all(|i| p.y[i - 1] <= p.y[i]));
+                let width = |c: &[f32]| {
+                    let c = &c[column.clone()];
+                    c.iter().copied().fold(f32::MIN, f32::max) - c.iter().copied().fold(f32::MAX, f32::min)
+                };
+                assert!(column.is_empty() || (width(&p.x) < 0.0801 && width(&p.z) < 0.0801));
+            }
+            assert_eq!(next, 300);
+        }
+    }
+
+    #[test]
+    fn ranges_hold_all_that_is_near() {
+        for size in [0.05, 0.5, 3.0] {
+            let (mut p, mut grid) = (cloud(300, size), Grid::default());
+            grid.sort(&mut p, 0.04, 0.1, &[false; 300]);
+            for k in 0..100 {
+                let low = p.position(3 * k);
+                let high = low + Vec3::new(0.01, 0.03, 0.02);
+                let mut seen = Vec::new();
+                grid.near(low.into(), high.into(), 0.1, |range| seen.extend(range));
+                for i in 0..p.len() {
+                    let at = p.position(i);
+                    if at.distance(at.clamp(low, high)) < 0.0999 {
+                        assert_eq!(seen.iter().filter(|&&j| j == i).count(), 1, "{i} at size {size}");
                     }
                 }
+                seen.sort_unstable();
+                assert!(seen.windows(2).all(|w| w[0] < w[1]));
             }
         }
     }
@@ -147,10 +220,10 @@ mod tests {
     fn the_dead_are_dropped() {
         let (mut p, mut grid) = (cloud(10, 1.0), Grid::default());
         let dead: Vec<bool> = (0..10).map(|i| i % 2 == 0).collect();
-        grid.sort(&mut p, 0.1, &dead);
+        grid.sort(&mut p, 0.04, 0.1, &dead);
         assert_eq!(p.len(), 5);
         assert!(p.id[..5].iter().all(|id| id % 2 == 1));
-        grid.sort(&mut p, 0.1, &[true; 5]);
+        grid.sort(&mut p, 0.04, 0.1, &[true; 5]);
         assert_eq!(p.len(), 0);
     }
 
@@ -160,7 +233,7 @@ mod tests {
         let at = |x: f32| Newborn { position: Vec3::splat(x), ..Newborn::default() };
         p.extend(&[at(-500.0), at(500.0)]);
         let mut grid = Grid::default();
-        grid.sort(&mut p, 0.01, &[false, false]);
+        grid.sort(&mut p, 0.004, 0.01, &[false, false]);
         assert!(grid.start.len() < 10_000_000);
     }
 }

@@ -9,10 +9,10 @@
 //! `cpu.rs`). `forgiven` is the density that particles have too much of when interaction is switched on: it
 //! fades away in a quarter of a second instead of bursting.
 
-use super::{Pass, RowPass, Rows, sweep};
+use super::{Pass, Record, RowPass, Rows, Scratch, sweep};
 use crate::FluidConfig;
 use crate::body::BodyLoad;
-use crate::lanes::{add_scaled, difference, dot, fma, for_lanes, splat3, sum3};
+use crate::lanes::{add_scaled, difference, dot, fma};
 use crate::particles::Particles;
 use glam::Vec3;
 use pulp::Simd;
@@ -68,8 +68,8 @@ impl Muller {
     }
 
     /// Rows of [density kg/m³, –, –, –].
-    pub fn densities(&self, pass: Pass<'_>, rows: &mut Rows) {
-        sweep(pass, Densities(self), rows);
+    pub fn densities(&self, pass: Pass<'_>, scratch: &mut Scratch, rows: &mut Rows) {
+        sweep(pass, Densities(self), rows, scratch, &mut []);
     }
 
     /// Takes pressures from the densities; `forgive` when interaction has just been switched on.
@@ -86,98 +86,95 @@ impl Muller {
     }
 
     /// Rows of [acceleration without gravity m/s², –].
-    pub fn accelerations(&self, pass: Pass<'_>, rows: &mut Rows) {
-        sweep(pass, Accelerations(self), rows);
+    pub fn accelerations(&self, pass: Pass<'_>, scratch: &mut Scratch, rows: &mut Rows) {
+        sweep(pass, Accelerations(self), rows, scratch, &mut []);
+    }
+
+    /// Force of the surface by the sums of its normal and curvature.
+    fn surface_tension(&self, normal: Vec3, curvature: f32) -> Vec3 {
+        let scale = self.mass * self.poly6_slope;
+        let length = normal.length() * scale;
+        if length > self.inside {
+            normal * (self.tension * curvature * scale * scale / length)
+        } else {
+            Vec3::ZERO
+        }
     }
 }
 
 #[derive(Clone, Copy)]
 struct Densities<'a>(&'a Muller);
 
-impl RowPass for Densities<'_> {
+impl RowPass<3, 1> for Densities<'_> {
     type Row = [f32; 4];
 
+    fn record(self, p: &Particles, i: usize) -> Record {
+        [p.x[i], p.y[i], p.z[i], 0.0, 0.0, 0.0, 0.0, 0.0]
+    }
+
     #[inline(always)]
-    fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, _: &mut [BodyLoad]) -> [f32; 4] {
-        let (s, p) = (self.0, pass.particles);
-        let (h2, zero) = (simd.splat_f32s(s.support * s.support), simd.splat_f32s(0.0));
-        let xi = splat3(simd, p.position(i).to_array());
-        let mut sum = zero;
-        for range in pass.grid.neighbours(i) {
-            for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z], live, {
-                let d = difference(simd, xi, [x, y, z]);
-                let t = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(h2, dot(simd, d, d)), zero), live);
-                sum = fma(simd, simd.mul_f32s(t, t), t, sum);
-            });
-        }
-        [simd.reduce_sum_f32s(sum) * s.poly6 * s.mass, 0.0, 0.0, 0.0]
+    fn pair<S: Simd>(self, simd: S, i: &[S::f32s; 3], j: &[S::f32s; 3], [sum]: &mut [S::f32s; 1]) {
+        let d = difference(simd, *i, *j);
+        let h2 = simd.splat_f32s(self.0.support * self.0.support);
+        let t = simd.max_f32s(simd.sub_f32s(h2, dot(simd, d, d)), simd.splat_f32s(0.0));
+        *sum = fma(simd, simd.mul_f32s(t, t), t, *sum);
+    }
+
+    fn row(self, _: &Pass<'_>, _: usize, [sum]: [f32; 1], _: &mut [BodyLoad]) -> [f32; 4] {
+        [sum * self.0.poly6 * self.0.mass, 0.0, 0.0, 0.0]
     }
 }
 
 #[derive(Clone, Copy)]
 struct Accelerations<'a>(&'a Muller);
 
-impl RowPass for Accelerations<'_> {
+impl RowPass<8, 7> for Accelerations<'_> {
     type Row = [f32; 4];
 
+    fn record(self, p: &Particles, i: usize) -> Record {
+        [p.x[i], p.y[i], p.z[i], p.u[i], p.v[i], p.w[i], p.p[i], p.aux[i]]
+    }
+
+    /// Force by pressure and viscosity, and, where there is surface tension, normal and curvature of the colour field.
     #[inline(always)]
-    fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, _: &mut [BodyLoad]) -> [f32; 4] {
+    fn pair<S: Simd>(self, simd: S, i: &[S::f32s; 8], j: &[S::f32s; 8], sums: &mut [S::f32s; 7]) {
         let s = self.0;
-        let mut force = Vec3::from(pair_force(simd, s, pass, i)) * (s.mass * s.spiky);
+        let (zero, half) = (simd.splat_f32s(0.0), simd.splat_f32s(-0.5));
+        let [fx, fy, fz, nx, ny, nz, curvature] = sums;
+        let d = difference(simd, [i[0], i[1], i[2]], [j[0], j[1], j[2]]);
+        let r2 = dot(simd, d, d);
+        let r = simd.sqrt_f32s(r2);
+        let t = simd.max_f32s(simd.sub_f32s(simd.splat_f32s(s.support), r), zero);
+        let volume = simd.mul_f32s(t, j[7]);
+        let pressure = simd.mul_f32s(simd.mul_f32s(half, simd.add_f32s(i[6], j[6])), t);
+        let apart = simd.add_f32s(r, simd.splat_f32s(1e-6 * s.support));
+        let along = simd.div_f32s(simd.mul_f32s(volume, pressure), apart);
+        let mut force = [*fx, *fy, *fz];
+        add_scaled(simd, &mut force, along, d);
+        let dv = difference(simd, [i[3], i[4], i[5]], [j[3], j[4], j[5]]);
+        add_scaled(simd, &mut force, simd.mul_f32s(volume, simd.splat_f32s(s.viscosity)), dv);
+        [*fx, *fy, *fz] = force;
         if s.tension > 0.0 {
-            force += surface_tension(simd, s, pass, i);
+            let h2 = simd.splat_f32s(s.support * s.support);
+            let volume = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(h2, r2), zero), j[7]);
+            let mut normal = [*nx, *ny, *nz];
+            add_scaled(
+                simd,
+                &mut normal,
+                simd.mul_f32s(volume, simd.max_f32s(simd.sub_f32s(h2, r2), zero)),
+                d,
+            );
+            [*nx, *ny, *nz] = normal;
+            let shape = fma(simd, simd.splat_f32s(-7.0), r2, simd.mul_f32s(simd.splat_f32s(3.0), h2));
+            *curvature = fma(simd, volume, shape, *curvature);
         }
-        let a = force * pass.particles.aux[i];
+    }
+
+    fn row(self, pass: &Pass<'_>, i: usize, sums: [f32; 7], _: &mut [BodyLoad]) -> [f32; 4] {
+        let s = self.0;
+        let [fx, fy, fz, nx, ny, nz, curvature] = sums;
+        let tension = s.surface_tension(Vec3::new(nx, ny, nz), curvature);
+        let a = (Vec3::new(fx, fy, fz) * (s.mass * s.spiky) + tension) * pass.particles.aux[i];
         [a.x, a.y, a.z, 0.0]
     }
-}
-
-#[inline(always)]
-fn pair_force<S: Simd>(simd: S, s: &Muller, pass: &Pass<'_>, i: usize) -> [f32; 3] {
-    let p = pass.particles;
-    let xi = splat3(simd, p.position(i).to_array());
-    let vi = splat3(simd, p.velocity(i).to_array());
-    let pi = simd.splat_f32s(p.p[i]);
-    let (h, zero) = (simd.splat_f32s(s.support), simd.splat_f32s(0.0));
-    let (half, mu, tiny) =
-        (simd.splat_f32s(-0.5), simd.splat_f32s(s.viscosity), simd.splat_f32s(1e-6 * s.support));
-    let mut sum = [zero; 3];
-    for range in pass.grid.neighbours(i) {
-        for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z, u: p.u, v: p.v, w: p.w, pj: p.p, inverse_density: p.aux], live, {
-            let d = difference(simd, xi, [x, y, z]);
-            let r = simd.sqrt_f32s(dot(simd, d, d));
-            let t = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(h, r), zero), live);
-            let volume = simd.mul_f32s(t, inverse_density);
-            let pressure = simd.mul_f32s(simd.mul_f32s(half, simd.add_f32s(pi, pj)), t);
-            let along = simd.div_f32s(simd.mul_f32s(volume, pressure), simd.add_f32s(r, tiny));
-            add_scaled(simd, &mut sum, along, d);
-            add_scaled(simd, &mut sum, simd.mul_f32s(volume, mu), difference(simd, vi, [u, v, w]));
-        });
-    }
-    sum3(simd, sum)
-}
-
-#[inline(always)]
-fn surface_tension<S: Simd>(simd: S, s: &Muller, pass: &Pass<'_>, i: usize) -> Vec3 {
-    let p = pass.particles;
-    let xi = splat3(simd, p.position(i).to_array());
-    let (h2, zero) = (simd.splat_f32s(s.support * s.support), simd.splat_f32s(0.0));
-    let (three, seven) = (simd.splat_f32s(3.0), simd.splat_f32s(-7.0));
-    let (mut normal, mut laplacian) = ([zero; 3], zero);
-    for range in pass.grid.neighbours(i) {
-        for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z, inverse_density: p.aux], live, {
-            let d = difference(simd, xi, [x, y, z]);
-            let r2 = dot(simd, d, d);
-            let t = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(h2, r2), zero), live);
-            let volume = simd.mul_f32s(t, inverse_density);
-            add_scaled(simd, &mut normal, simd.mul_f32s(volume, t), d);
-            let shape = fma(simd, seven, r2, simd.mul_f32s(three, h2));
-            laplacian = fma(simd, volume, shape, laplacian);
-        });
-    }
-    let scale = s.mass * s.poly6_slope;
-    let normal = Vec3::from(sum3(simd, normal)) * scale;
-    let curvature = simd.reduce_sum_f32s(laplacian) * scale;
-    let length = normal.length();
-    if length > s.inside { normal * (s.tension * curvature / length) } else { Vec3::ZERO }
 }

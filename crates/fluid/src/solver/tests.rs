@@ -1,8 +1,9 @@
 //! The fast passes against the scalar twin, on clouds with every kind of neighbourhood.
 
-use super::{Pass, Rows};
+use super::{Pass, Rows, Scratch, arch};
 use crate::body::BodyTables;
 use crate::grid::Grid;
+use crate::neighbours::Neighbours;
 use crate::particles::{Newborn, Particles};
 use crate::solids::{Solids, Walls};
 use crate::solver::{muller::Muller, wcsph::Wcsph};
@@ -53,20 +54,20 @@ fn twins(p: &Particles, density: impl Fn(usize) -> f64) -> Vec<Twin> {
 }
 
 /// Sorted cloud and a pass over it on each kind of processor at hand.
-fn each_pass(
-    config: &FluidConfig,
-    check: impl Fn(&mut Particles, &Grid, &dyn Fn(&Particles, &Grid, &dyn Fn(Pass<'_>))),
-) {
+fn each_pass(config: &FluidConfig, check: impl Fn(&mut Particles, &dyn Fn(&Particles, &dyn Fn(Pass<'_>)))) {
     let support = config.settings.support_length();
-    for arch in [pulp::Arch::Scalar, pulp::Arch::new()] {
+    for arch in [pulp::Arch::Scalar, arch()] {
         let (mut particles, mut grid) = (cloud(config.settings.spacing as f32), Grid::default());
         let n = particles.len();
-        grid.sort(&mut particles, support as f32, &vec![false; n]);
+        let spacing = config.settings.spacing as f32;
+        grid.sort(&mut particles, spacing, support as f32, &vec![false; n]);
+        let mut neighbours = Neighbours::default();
+        neighbours.find(arch, &grid, &particles, spacing, support as f32);
         let (walls, plane) = (Walls::new(&config.world, config.settings.spacing), WallTable::plane(support));
         let tables = BodyTables::default();
-        check(&mut particles, &grid, &|particles, grid, run| {
+        check(&mut particles, &|particles, run| {
             let solids = Solids { walls: &walls, bodies: &[], plane: &plane, tables: &tables };
-            run(Pass { arch, particles, grid, solids });
+            run(Pass { arch, particles, neighbours: &neighbours, solids });
         });
     }
 }
@@ -92,16 +93,18 @@ fn muller_passes_equal_the_twin() {
         inside: 0.5 / h,
     };
     let solver = Muller::new(&config);
-    each_pass(&config, |particles, grid, with_pass| {
+    each_pass(&config, |particles, with_pass| {
         let rows = std::cell::RefCell::new(Rows::new());
-        with_pass(particles, grid, &|pass| solver.densities(pass, &mut rows.borrow_mut()));
+        with_pass(particles, &|pass| solver.densities(pass, &mut Scratch::default(), &mut rows.borrow_mut()));
         solver.take_densities(particles, &rows.borrow(), false, 1e-3);
         let all = twins(particles, |i| 1.0 / f64::from(particles.aux[i]));
         for i in 0..all.len() {
             let expected = twin.density(&all, i);
             assert!((f64::from(rows.borrow()[i][0]) / expected - 1.0).abs() < 1e-5);
         }
-        with_pass(particles, grid, &|pass| solver.accelerations(pass, &mut rows.borrow_mut()));
+        with_pass(particles, &|pass| {
+            solver.accelerations(pass, &mut Scratch::default(), &mut rows.borrow_mut())
+        });
         let expected: Vec<_> = (0..all.len()).map(|i| twin.acceleration(&all, i)).collect();
         let scale = expected.iter().map(|a| a.length()).fold(0.0, f64::max);
         for (row, expected) in rows.borrow().iter().zip(expected) {
@@ -123,11 +126,11 @@ fn wcsph_passes_equal_the_twin() {
         gravity: s.gravity,
     };
     let solver = Wcsph::new(&config);
-    each_pass(&config, |particles, grid, with_pass| {
+    each_pass(&config, |particles, with_pass| {
         let rates = std::cell::RefCell::new(Vec::new());
         let all = twins(particles, |_| 1000.0);
         let each = |f: &dyn Fn(usize) -> DVec3| (0..all.len()).map(f).collect::<Vec<_>>();
-        with_pass(particles, grid, &|pass| solver.rates(pass, &mut rates.borrow_mut()));
+        with_pass(particles, &|pass| solver.rates(pass, &mut Scratch::default(), &mut rates.borrow_mut()));
         let scalars = each(&|i| {
             let diffusion = s.density_diffusion * 0.5 * h * c * twin.diffusion(&all, i);
             DVec3::new(twin.divergence(&all, i), diffusion, 0.0)
@@ -151,11 +154,42 @@ fn wcsph_passes_equal_the_twin() {
             (particles.lx[i], particles.ly[i], particles.lz[i]) = r.laplacian.into();
         }
         let rows = std::cell::RefCell::new(Rows::new());
-        with_pass(particles, grid, &|pass| {
-            solver.accelerations(pass, &rates.borrow(), &mut rows.borrow_mut(), &mut vec![], &mut []);
+        with_pass(particles, &|pass| {
+            solver.accelerations(
+                pass,
+                &rates.borrow(),
+                &mut Scratch::default(),
+                &mut rows.borrow_mut(),
+                &mut [],
+            );
         });
         let expected = each(&|i| twin.acceleration(&all, &laplacians, i));
         assert_rows(rows.borrow().iter().map(vector), expected.into_iter());
+    });
+}
+
+/// Whoever touches a particle is in its block's list, once, and every particle is in a block.
+#[test]
+fn lists_hold_every_neighbour() {
+    let config = config(Solver::Wcsph);
+    let support = config.settings.support_length() as f32;
+    each_pass(&config, |particles, with_pass| {
+        with_pass(particles, &|pass| {
+            let mut next = 0;
+            for block in 0..pass.neighbours.blocks() {
+                let (own, all) = (pass.neighbours.block(block), pass.neighbours.of(block));
+                assert!(own.start == next && own.len() <= 8 && !own.is_empty());
+                next = own.end;
+                for i in own {
+                    let touches =
+                        |j: &usize| particles.position(i).distance(particles.position(*j)) < support;
+                    for j in (0..particles.len()).filter(touches) {
+                        assert_eq!(all.iter().filter(|&&k| k as usize == j).count(), 1, "{i} and {j}");
+                    }
+                }
+            }
+            assert_eq!(next, particles.len());
+        });
     });
 }
 
@@ -175,16 +209,24 @@ fn pair_forces_sum_to_nothing() {
         config.settings.viscosity = if pressure { 0.0 } else { 0.3 };
         config.settings.artificial_viscosity = if pressure { 0.0 } else { 0.1 };
         let solver = Wcsph::new(&config);
-        each_pass(&config, |particles, grid, with_pass| {
+        each_pass(&config, |particles, with_pass| {
             let rates = std::cell::RefCell::new(Vec::new());
             let rows = std::cell::RefCell::new(Rows::new());
-            with_pass(particles, grid, &|pass| solver.rates(pass, &mut rates.borrow_mut()));
+            with_pass(particles, &|pass| {
+                solver.rates(pass, &mut Scratch::default(), &mut rates.borrow_mut())
+            });
             for (i, r) in rates.borrow().iter().enumerate() {
                 (particles.lx[i], particles.ly[i], particles.lz[i]) = r.laplacian.into();
                 particles.aux[i] = if pressure { particles.p[i] } else { 0.0 };
             }
-            with_pass(particles, grid, &|pass| {
-                solver.accelerations(pass, &rates.borrow(), &mut rows.borrow_mut(), &mut vec![], &mut []);
+            with_pass(particles, &|pass| {
+                solver.accelerations(
+                    pass,
+                    &rates.borrow(),
+                    &mut Scratch::default(),
+                    &mut rows.borrow_mut(),
+                    &mut [],
+                );
             });
             let got: Vec<_> = rows.borrow().iter().map(vector).collect();
             let size: f64 = got.iter().map(|a| a.length()).sum();

@@ -24,9 +24,9 @@
 //! take energy away. q_i leads P slowly to the pressure of the summed density, because an integrated density forgets
 //! how many particles there are. Walls: see `wall.rs`; they push and never pull.
 
-use super::{Pass, RowPass, Rows, sweep, sweep_with_loads};
+use super::{Pass, Record, RowPass, Rows, Scratch, sweep};
 use crate::body::BodyLoad;
-use crate::lanes::{add_scaled, difference, dot, fma, for_lanes, splat3, sum3};
+use crate::lanes::{add_scaled, difference, dot, fma};
 use crate::particles::Particles;
 use crate::solids::Meeting;
 use crate::{FluidConfig, kernel};
@@ -78,7 +78,7 @@ pub(crate) struct Wcsph {
     inverse_support: f32,
     /// C V: scale of f.
     scale: f32,
-    /// Scale of the viscous sum.
+    /// Scale of the viscous sum, in supports.
     viscous_scale: f32,
     /// Scale of the summed kernel.
     sum_scale: f32,
@@ -112,7 +112,7 @@ impl Wcsph {
             support: h as f32,
             inverse_support: (1.0 / h) as f32,
             scale: (kernel::wendland_gradient_scale(h) * volume) as f32,
-            viscous_scale: (30.0 / (h * h) * kernel::wendland_gradient_scale(h) * volume) as f32,
+            viscous_scale: (30.0 * kernel::wendland_gradient_scale(h) * volume) as f32,
             sum_scale: (kernel::wendland(0.0, h) * dx.powi(3) / kernel::wendland_lattice_sum(dx, h)) as f32,
             mass: s.particle_mass() as f32,
             sound: c as f32,
@@ -131,13 +131,13 @@ impl Wcsph {
     }
 
     /// What the pressures change by, and what the accelerations need.
-    pub fn rates(&self, pass: Pass<'_>, rates: &mut Vec<Rates>) {
-        sweep(pass, RatesPass(self), rates);
+    pub fn rates(&self, pass: Pass<'_>, scratch: &mut Scratch, rates: &mut Vec<Rates>) {
+        sweep(pass, RatesPass(self), rates, scratch, &mut []);
     }
 
     /// Rows of [share of the neighbourhood that is filled, –, –, –].
-    pub fn packing(&self, pass: Pass<'_>, rows: &mut Rows) {
-        sweep(pass, Packing(self), rows);
+    pub fn packing(&self, pass: Pass<'_>, scratch: &mut Scratch, rows: &mut Rows) {
+        sweep(pass, Packing(self), rows, scratch, &mut []);
     }
 
     /// Rows of [acceleration without gravity m/s², –]; adds the bodies' loads.
@@ -145,11 +145,11 @@ impl Wcsph {
         &self,
         pass: Pass<'_>,
         rates: &[Rates],
+        scratch: &mut Scratch,
         rows: &mut Rows,
-        partial: &mut Vec<BodyLoad>,
         loads: &mut [BodyLoad],
     ) {
-        sweep_with_loads(pass, Accelerations { solver: self, rates }, rows, partial, loads);
+        sweep(pass, Accelerations { solver: self, rates }, rows, scratch, loads);
     }
 
     /// Sets the packing feedback from the summed densities.
@@ -188,6 +188,11 @@ impl Wcsph {
             let l = r.laplacian * particles.inner[i];
             (particles.lx[i], particles.ly[i], particles.lz[i]) = (l.x, l.y, l.z);
         }
+    }
+
+    /// Place of a particle in supports.
+    fn scaled(&self, p: &Particles, i: usize) -> [f32; 3] {
+        (p.position(i) * self.inverse_support).into()
     }
 
     /// Acceleration by a wall: [pressure, friction]. `slope`: sum of f (P_j − P_i) d over the fluid.
@@ -237,14 +242,41 @@ pub(crate) struct Rates {
 #[derive(Clone, Copy)]
 struct RatesPass<'a>(&'a Wcsph);
 
-impl RowPass for RatesPass<'_> {
+impl RowPass<7, 8> for RatesPass<'_> {
     type Row = Rates;
 
+    fn record(self, p: &Particles, i: usize) -> Record {
+        let [x, y, z] = self.0.scaled(p, i);
+        // The hydrostatic part of the pressure diffuses nowhere.
+        let p_flat = p.p[i] - self.0.gravity.dot(p.position(i));
+        [x, y, z, p_flat, p.u[i], p.v[i], p.w[i], 0.0]
+    }
+
     #[inline(always)]
-    fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, _: &mut [BodyLoad]) -> Rates {
+    fn pair<S: Simd>(self, simd: S, i: &[S::f32s; 7], j: &[S::f32s; 7], sums: &mut [S::f32s; 8]) {
+        let (d, _, f) = slope(simd, [i[0], i[1], i[2]], [j[0], j[1], j[2]]);
+        let dv = difference(simd, [i[4], i[5], i[6]], [j[4], j[5], j[6]]);
+        let opening = simd.mul_f32s(f, dot(simd, dv, d));
+        let [divergence, diffusion, laplacian @ .., cx, cy, cz] = sums;
+        *divergence = simd.add_f32s(*divergence, opening);
+        *diffusion = fma(simd, f, simd.sub_f32s(j[3], i[3]), *diffusion);
+        add_scaled(simd, laplacian, opening, d);
+        let mut crowding = [*cx, *cy, *cz];
+        add_scaled(simd, &mut crowding, f, d);
+        [*cx, *cy, *cz] = crowding;
+    }
+
+    fn row(self, pass: &Pass<'_>, i: usize, sums: [f32; 8], _: &mut [BodyLoad]) -> Rates {
         let (s, p) = (self.0, pass.particles);
         let (xi, vi) = (p.position(i), p.velocity(i));
-        let mut r = pair_rates(simd, s, pass, i);
+        let [divergence, diffusion, lx, ly, lz, cx, cy, cz] = sums;
+        let mut r = Rates {
+            divergence: divergence * (s.support * s.scale),
+            diffusion: diffusion * (2.0 * s.scale * s.diffusion),
+            laplacian: Vec3::new(lx, ly, lz) * s.viscous_scale,
+            crowding: Vec3::new(cx, cy, cz) * (s.support * s.scale),
+            shift: Vec3::ZERO,
+        };
         let mut crowding = r.crowding;
         pass.solids.visit(xi, s.support, |m| {
             let (gradient, n) = (pass.solids.terms(&m).gradient, m.contact.normal);
@@ -256,38 +288,13 @@ impl RowPass for RatesPass<'_> {
     }
 }
 
+/// d, r and f = (1−r)³ of pairs, in supports.
 #[inline(always)]
-fn pair_rates<S: Simd>(simd: S, s: &Wcsph, pass: &Pass<'_>, i: usize) -> Rates {
-    let p = pass.particles;
-    let xi = splat3(simd, p.position(i).to_array());
-    let vi = splat3(simd, p.velocity(i).to_array());
-    let pi = simd.splat_f32s(p.p[i]);
-    let gravity = splat3(simd, s.gravity.to_array());
-    let (ih, one, zero) = (simd.splat_f32s(s.inverse_support), simd.splat_f32s(1.0), simd.splat_f32s(0.0));
-    let (mut divergence, mut diffusion) = (zero, zero);
-    let (mut laplacian, mut crowding) = ([zero; 3], [zero; 3]);
-    for range in pass.grid.neighbours(i) {
-        for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z, u: p.u, v: p.v, w: p.w, pj: p.p], live, {
-            let d = difference(simd, xi, [x, y, z]);
-            let q = simd.mul_f32s(simd.sqrt_f32s(dot(simd, d, d)), ih);
-            let t = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(one, q), zero), live);
-            let f = simd.mul_f32s(simd.mul_f32s(t, t), t);
-            let dp = simd.sub_f32s(simd.sub_f32s(pj, pi), dot(simd, gravity, d));
-            diffusion = fma(simd, f, dp, diffusion);
-            add_scaled(simd, &mut crowding, f, d);
-            let dv = difference(simd, vi, [u, v, w]);
-            let opening = simd.mul_f32s(f, dot(simd, dv, d));
-            divergence = simd.add_f32s(divergence, opening);
-            add_scaled(simd, &mut laplacian, opening, d);
-        });
-    }
-    Rates {
-        divergence: simd.reduce_sum_f32s(divergence) * s.scale,
-        diffusion: simd.reduce_sum_f32s(diffusion) * (2.0 * s.scale * s.diffusion),
-        laplacian: Vec3::from(sum3(simd, laplacian)) * s.viscous_scale,
-        crowding: Vec3::from(sum3(simd, crowding)) * s.scale,
-        shift: Vec3::ZERO,
-    }
+fn slope<S: Simd>(simd: S, i: [S::f32s; 3], j: [S::f32s; 3]) -> ([S::f32s; 3], S::f32s, S::f32s) {
+    let d = difference(simd, i, j);
+    let r = simd.sqrt_f32s(dot(simd, d, d));
+    let t = simd.max_f32s(simd.sub_f32s(simd.splat_f32s(1.0), r), simd.splat_f32s(0.0));
+    (d, r, simd.mul_f32s(simd.mul_f32s(t, t), t))
 }
 
 #[derive(Clone, Copy)]
@@ -296,14 +303,32 @@ struct Accelerations<'a> {
     rates: &'a [Rates],
 }
 
-impl RowPass for Accelerations<'_> {
+impl RowPass<7, 6> for Accelerations<'_> {
     type Row = [f32; 4];
 
+    fn record(self, p: &Particles, i: usize) -> Record {
+        let [x, y, z] = self.solver.scaled(p, i);
+        [x, y, z, p.aux[i], p.lx[i], p.ly[i], p.lz[i], 0.0]
+    }
+
+    /// Σ f (P̂_i + P̂_j) d, and the noise filter's sum.
     #[inline(always)]
-    fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, loads: &mut [BodyLoad]) -> [f32; 4] {
+    fn pair<S: Simd>(self, simd: S, i: &[S::f32s; 7], j: &[S::f32s; 7], sums: &mut [S::f32s; 6]) {
+        let (d, _, f) = slope(simd, [i[0], i[1], i[2]], [j[0], j[1], j[2]]);
+        let [px, py, pz, filter @ ..] = sums;
+        let mut pressure = [*px, *py, *pz];
+        add_scaled(simd, &mut pressure, simd.mul_f32s(f, simd.add_f32s(i[3], j[3])), d);
+        [*px, *py, *pz] = pressure;
+        let dl = difference(simd, [i[4], i[5], i[6]], [j[4], j[5], j[6]]);
+        add_scaled(simd, filter, simd.mul_f32s(f, dot(simd, dl, d)), d);
+    }
+
+    fn row(self, pass: &Pass<'_>, i: usize, sums: [f32; 6], loads: &mut [BodyLoad]) -> [f32; 4] {
         let (s, p, rates) = (self.solver, pass.particles, &self.rates[i]);
         let (xi, vi) = (p.position(i), p.velocity(i));
-        let [pressure, filter] = pair_accelerations(simd, s, pass, i);
+        let [px, py, pz, fx, fy, fz] = sums;
+        let pressure = Vec3::new(px, py, pz) * (s.support * s.scale);
+        let filter = Vec3::new(fx, fy, fz) * (s.filter * s.viscous_scale);
         let slope = pressure - 2.0 * p.aux[i] * rates.crowding;
         let mut total = s.viscosity * rates.laplacian - filter - pressure;
         pass.solids.visit(xi, s.support, |m| {
@@ -317,60 +342,29 @@ impl RowPass for Accelerations<'_> {
     }
 }
 
-/// Σ f (P̂_i + P̂_j) d, and the noise filter's sum.
-#[inline(always)]
-fn pair_accelerations<S: Simd>(simd: S, s: &Wcsph, pass: &Pass<'_>, i: usize) -> [Vec3; 2] {
-    let p = pass.particles;
-    let xi = splat3(simd, p.position(i).to_array());
-    let li = splat3(simd, [p.lx[i], p.ly[i], p.lz[i]]);
-    let pi = simd.splat_f32s(p.aux[i]);
-    let (ih, one, zero) = (simd.splat_f32s(s.inverse_support), simd.splat_f32s(1.0), simd.splat_f32s(0.0));
-    let (mut pressure, mut filter) = ([zero; 3], [zero; 3]);
-    for range in pass.grid.neighbours(i) {
-        for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z, u: p.lx, v: p.ly, w: p.lz, pj: p.aux], live, {
-            let d = difference(simd, xi, [x, y, z]);
-            let q = simd.mul_f32s(simd.sqrt_f32s(dot(simd, d, d)), ih);
-            let t = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(one, q), zero), live);
-            let f = simd.mul_f32s(simd.mul_f32s(t, t), t);
-            add_scaled(simd, &mut pressure, simd.mul_f32s(f, simd.add_f32s(pi, pj)), d);
-            let rise = simd.mul_f32s(f, dot(simd, difference(simd, li, [u, v, w]), d));
-            add_scaled(simd, &mut filter, rise, d);
-        });
-    }
-    let filter = Vec3::from(sum3(simd, filter)) * (s.filter * s.viscous_scale);
-    [Vec3::from(sum3(simd, pressure)) * s.scale, filter]
-}
-
 #[derive(Clone, Copy)]
 struct Packing<'a>(&'a Wcsph);
 
-impl RowPass for Packing<'_> {
+impl RowPass<3, 1> for Packing<'_> {
     type Row = [f32; 4];
 
+    fn record(self, p: &Particles, i: usize) -> Record {
+        let [x, y, z] = self.0.scaled(p, i);
+        [x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0]
+    }
+
     #[inline(always)]
-    fn row<S: Simd>(self, simd: S, pass: &Pass<'_>, i: usize, _: &mut [BodyLoad]) -> [f32; 4] {
+    fn pair<S: Simd>(self, simd: S, i: &[S::f32s; 3], j: &[S::f32s; 3], [sum]: &mut [S::f32s; 1]) {
+        let (_, r, f) = slope(simd, *i, *j);
+        let one = simd.splat_f32s(1.0);
+        let w = simd.mul_f32s(simd.sub_f32s(one, r), fma(simd, simd.splat_f32s(4.0), r, one));
+        *sum = fma(simd, f, w, *sum);
+    }
+
+    fn row(self, pass: &Pass<'_>, i: usize, [sum]: [f32; 1], _: &mut [BodyLoad]) -> [f32; 4] {
         let s = self.0;
-        let mut total = pair_packing(simd, s, pass, i) * s.sum_scale;
+        let mut total = sum * s.sum_scale;
         pass.solids.visit(pass.particles.position(i), s.support, |m| total += pass.solids.terms(&m).volume);
         [total, 0.0, 0.0, 0.0]
     }
-}
-
-#[inline(always)]
-fn pair_packing<S: Simd>(simd: S, s: &Wcsph, pass: &Pass<'_>, i: usize) -> f32 {
-    let p = pass.particles;
-    let xi = splat3(simd, p.position(i).to_array());
-    let (ih, one, zero) = (simd.splat_f32s(s.inverse_support), simd.splat_f32s(1.0), simd.splat_f32s(0.0));
-    let four = simd.splat_f32s(4.0);
-    let mut sum = zero;
-    for range in pass.grid.neighbours(i) {
-        for_lanes!(S, simd, range, [x: p.x, y: p.y, z: p.z], live, {
-            let d = difference(simd, xi, [x, y, z]);
-            let q = simd.mul_f32s(simd.sqrt_f32s(dot(simd, d, d)), ih);
-            let t = simd.mul_f32s(simd.max_f32s(simd.sub_f32s(one, q), zero), live);
-            let t2 = simd.mul_f32s(t, t);
-            sum = fma(simd, simd.mul_f32s(t2, t2), fma(simd, four, q, one), sum);
-        });
-    }
-    simd.reduce_sum_f32s(sum)
 }
