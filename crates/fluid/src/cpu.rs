@@ -8,6 +8,7 @@ use crate::backend::{FluidBackend, FluidError, FrameInput, FrameOutput, Particle
 use crate::body::{Body, BodyLoad, BodyNow, BodyTables, Medium};
 use crate::emitter::Emitter;
 use crate::grid::Grid;
+use crate::meetings::Meetings;
 use crate::neighbours::Neighbours;
 use crate::particles::{Newborn, Particles};
 use crate::periodic::Periodic;
@@ -125,6 +126,7 @@ struct Fluid {
     forgive: bool,
     grid: Grid,
     neighbours: Neighbours,
+    meetings: Meetings,
     scratch: Scratch,
     rows: Rows,
     rates: Vec<Rates>,
@@ -173,6 +175,7 @@ impl Fluid {
             forgive: false,
             grid: Grid::default(),
             neighbours: Neighbours::default(),
+            meetings: Meetings::default(),
             scratch: Scratch::default(),
             rows: Rows::new(),
             rates: Vec::new(),
@@ -313,9 +316,7 @@ impl Fluid {
         if self.interacts(config.settings.mode) {
             // In mixed mode a sub-step with forces gives the push of the next one too.
             let mixed = config.settings.mode == InteractionMode::Mixed;
-            let s = &config.settings;
-            let (spacing, support) = (s.spacing as f32, s.support_length() as f32);
-            self.neighbours.find(arch, &self.grid, &self.particles, spacing, support);
+            self.look_round(config, arch);
             self.forces(arch, if mixed { 2.0 * step.dt } else { step.dt });
             if mixed {
                 self.rows.as_flattened_mut().iter_mut().for_each(|a| *a *= 2.0);
@@ -390,13 +391,33 @@ impl Fluid {
         }
     }
 
+    /// Finds who is near whom, and near which solids.
+    fn look_round(&mut self, config: &FluidConfig, arch: pulp::Arch) {
+        let s = &config.settings;
+        let (spacing, support) = (s.spacing as f32, s.support_length() as f32);
+        self.neighbours.find(arch, &self.grid, &self.particles, spacing, support);
+        if self.meets_walls() {
+            let solids =
+                Solids { walls: &self.walls, bodies: &self.now, plane: &self.plane, tables: &self.tables };
+            self.meetings.find(&self.particles, &solids, support);
+        }
+    }
+
+    /// Whether the solver knows walls by their integrals, and not by contacts alone.
+    fn meets_walls(&self) -> bool {
+        matches!(self.method, Method::Wcsph(_))
+    }
+
     fn forces(&mut self, arch: pulp::Arch, dt: f64) {
-        let solids =
-            Solids { walls: &self.walls, bodies: &self.now, plane: &self.plane, tables: &self.tables };
         let dt = dt as f32;
         macro_rules! pass {
             () => {
-                Pass { arch, particles: &self.particles, neighbours: &self.neighbours, solids }
+                Pass {
+                    arch,
+                    particles: &self.particles,
+                    neighbours: &self.neighbours,
+                    meetings: &self.meetings,
+                }
             };
         }
         match self.method {
@@ -430,6 +451,7 @@ impl Fluid {
         let solids =
             Solids { walls: &self.walls, bodies: &self.now, plane: &self.plane, tables: &self.tables };
         let mass = s.particle_mass() as f32;
+        let looked_up = self.meets_walls() && self.interacts(s.mode);
         let mut fastest = 0.0_f32;
         for i in 0..self.particles.len() {
             let p = &mut self.particles;
@@ -451,21 +473,15 @@ impl Fluid {
             }
             let shift = self.rates.get(i).map_or(Vec3::ZERO, |r| r.shift);
             let mut state = (position + velocity * dt + shift, velocity);
-            let mut met_body = false;
-            solids.visit(state.0, step.contact.distance, |m| {
-                p.held[i] = 0.0;
-                met_body |= m.body.is_some();
-                let impulse = stop(&mut state, &m, step.contact, mass);
-                if let (true, Some(body)) = (s.two_way, m.body) {
-                    self.step_loads[body].react(impulse / dt, Vec3::ZERO, m.contact.arm);
-                }
-            });
-            if met_body {
-                // A tool that overlaps a wall must not push water through it.
-                let walls = Solids { bodies: &[], ..solids };
-                walls.visit(state.0, step.contact.distance, |m| {
-                    stop(&mut state, &m, step.contact, mass);
+            // Who meets nothing within the support comes to no surface in one sub-step.
+            if !(looked_up && self.meetings.of(i).is_empty()) {
+                let loads = &mut self.step_loads;
+                let touched = touch(&solids, &mut state, step.contact, mass, |m, impulse| {
+                    if let (true, Some(body)) = (s.two_way, m.body) {
+                        loads[body].react(impulse / dt, Vec3::ZERO, m.contact.arm);
+                    }
                 });
+                p.held[i] = if touched { 0.0 } else { p.held[i] };
             }
             p.set_position(i, state.0);
             p.set_velocity(i, state.1);
@@ -497,6 +513,31 @@ impl Method {
             Solver::Wcsph => Self::Wcsph(Wcsph::new(config)),
         }
     }
+}
+
+/// Stops a particle at all surfaces, and tells of the impulse of each. Returns whether there was any.
+fn touch(
+    solids: &Solids<'_>,
+    state: &mut (Vec3, Vec3),
+    rule: ContactRule,
+    mass: f32,
+    mut tell: impl FnMut(&Meeting, Vec3),
+) -> bool {
+    let (mut met, mut met_body) = (false, false);
+    solids.visit(state.0, rule.distance, |m| {
+        met = true;
+        met_body |= m.body.is_some();
+        let impulse = stop(state, &m, rule, mass);
+        tell(&m, impulse);
+    });
+    if met_body {
+        // A tool that overlaps a wall must not push water through it.
+        let walls = Solids { bodies: &[], ..*solids };
+        walls.visit(state.0, rule.distance, |m| {
+            stop(state, &m, rule, mass);
+        });
+    }
+    met
 }
 
 /// Contact by impulse (thesis: v_a = u_a + (j/m_a) n): takes the approach out of a particle's velocity but for

@@ -15,9 +15,10 @@ const HEIGHT: f32 = 0.5;
 
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Grid {
-    /// Width (x and z) and height of a cell, m.
+    /// Width (x and z) of a cell, m.
     width: f32,
-    height: f32,
+    /// 1/side of a cell along x, y, z, 1/m.
+    inverse: [f32; 3],
     origin: [f32; 3],
     /// Cells along x, y, z.
     dims: [usize; 3],
@@ -100,15 +101,15 @@ impl Grid {
         while (0..3).map(|a| cells(side, a)).product::<f32>() > MAX_CELLS {
             side = side.map(|s| s * 1.3);
         }
-        [self.width, self.height, _] = side;
+        self.width = side[0];
+        self.inverse = side.map(|s| 1.0 / s);
         self.origin = low;
         self.dims = std::array::from_fn(|a| cells(side, a) as usize);
     }
 
     /// Number of the cell along `axis` at `value`; outside the grid the first or last.
     fn along(&self, axis: usize, value: f32) -> usize {
-        let side = if axis == 1 { self.height } else { self.width };
-        (((value - self.origin[axis]) / side) as usize).min(self.dims[axis] - 1)
+        (((value - self.origin[axis]) * self.inverse[axis]) as usize).min(self.dims[axis] - 1)
     }
 
     fn cell_at(&self, p: &Particles, i: usize) -> u32 {

@@ -21,6 +21,7 @@ mod grid;
 pub mod kernel;
 mod lanes;
 mod limits;
+mod meetings;
 mod neighbours;
 mod particles;
 mod periodic;

@@ -23,16 +23,11 @@ const SLACK: f32 = 1.0001;
 /// Neighbours of the blocks of one chunk.
 #[derive(Clone, Debug, Default)]
 struct Lists {
+    /// Longer than what is used of it.
     all: Vec<u32>,
     /// End of each block's list in `all`.
     ends: [usize; CHUNK],
-    scratch: Scratch,
-}
-
-#[derive(Clone, Debug, Default)]
-struct Scratch {
     ranges: Vec<Range<usize>>,
-    found: Vec<u32>,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -111,21 +106,19 @@ impl pulp::WithSimd for Find<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { grid, p, reach, first, lists } = self;
-        lists.all.clear();
+        let mut end = 0;
         for (k, ends) in first.windows(2).enumerate() {
             let block = ends[0] as usize..ends[1] as usize;
             // Images need no neighbours.
             if let Some((low, high)) = bounds(p, block) {
-                let Scratch { ranges, found } = &mut lists.scratch;
-                ranges.clear();
-                grid.near(low, high, reach, |range| ranges.push(range));
-                let (corners, square) = ([splat3(simd, low), splat3(simd, high)], reach * reach);
-                for range in ranges {
-                    let count = collect(simd, p, range.clone(), corners, square, found);
-                    lists.all.extend_from_slice(&found[..count]);
+                lists.ranges.clear();
+                grid.near(low, high, reach, |range| lists.ranges.push(range));
+                let corners = [splat3(simd, low), splat3(simd, high)];
+                for range in &lists.ranges {
+                    end += collect(simd, p, range.clone(), corners, reach * reach, &mut lists.all, end);
                 }
             }
-            lists.ends[k] = lists.all.len();
+            lists.ends[k] = end;
         }
     }
 }
@@ -140,7 +133,8 @@ fn bounds(p: &Particles, block: Range<usize>) -> Option<([f32; 3], [f32; 3])> {
     Some((low.into(), high.into()))
 }
 
-/// Puts those of `range` into `found` whose distance from the box is within the root of `square`. Returns how many.
+/// Puts those of `range` into `list` from `end` on whose distance from the box is within the root of `square`. Returns how
+/// many.
 #[inline(always)]
 fn collect<S: Simd>(
     simd: S,
@@ -148,12 +142,16 @@ fn collect<S: Simd>(
     range: Range<usize>,
     [low, high]: [[S::f32s; 3]; 2],
     square: f32,
-    found: &mut Vec<u32>,
+    list: &mut Vec<u32>,
+    end: usize,
 ) -> usize {
     let lanes = S::F32_LANES;
     let vectors = range.len().div_ceil(lanes);
     let window = range.start..range.start + vectors * lanes;
-    found.resize(found.len().max(window.len()), 0);
+    if list.len() < end + window.len() {
+        list.resize(2 * (end + window.len()), 0);
+    }
+    let found = &mut list[end..];
     let columns = [&p.x[window.clone()], &p.y[window.clone()], &p.z[window]];
     let [x, y, z] = columns.map(|c| S::as_simd_f32s(c).0);
     let mut distances = [0.0_f32; 16];

@@ -8,9 +8,9 @@ pub(crate) mod muller;
 pub(crate) mod wcsph;
 
 use crate::body::BodyLoad;
+use crate::meetings::Meetings;
 use crate::neighbours::{BLOCK, CHUNK, Neighbours};
 use crate::particles::Particles;
-use crate::solids::Solids;
 use crate::{FluidConfig, Solver};
 use pulp::Simd;
 use rayon::prelude::*;
@@ -31,7 +31,7 @@ pub(crate) struct Pass<'a> {
     pub arch: pulp::Arch,
     pub particles: &'a Particles,
     pub neighbours: &'a Neighbours,
-    pub solids: Solids<'a>,
+    pub meetings: &'a Meetings,
 }
 
 /// Room for a pass to work in, kept from one to the next.

@@ -3,6 +3,7 @@
 use super::{Pass, Rows, Scratch, arch};
 use crate::body::BodyTables;
 use crate::grid::Grid;
+use crate::meetings::Meetings;
 use crate::neighbours::Neighbours;
 use crate::particles::{Newborn, Particles};
 use crate::solids::{Solids, Walls};
@@ -67,7 +68,9 @@ fn each_pass(config: &FluidConfig, check: impl Fn(&mut Particles, &dyn Fn(&Parti
         let tables = BodyTables::default();
         check(&mut particles, &|particles, run| {
             let solids = Solids { walls: &walls, bodies: &[], plane: &plane, tables: &tables };
-            run(Pass { arch, particles, neighbours: &neighbours, solids });
+            let mut meetings = Meetings::default();
+            meetings.find(particles, &solids, support as f32);
+            run(Pass { arch, particles, neighbours: &neighbours, meetings: &meetings });
         });
     }
 }

@@ -29,6 +29,7 @@ use crate::body::BodyLoad;
 use crate::lanes::{add_scaled, difference, dot, fma};
 use crate::particles::Particles;
 use crate::solids::Meeting;
+use crate::wall::WallTerms;
 use crate::{FluidConfig, kernel};
 use glam::Vec3;
 use pulp::Simd;
@@ -198,13 +199,12 @@ impl Wcsph {
     /// Acceleration by a wall: [pressure, friction]. `slope`: sum of f (P_j − P_i) d over the fluid.
     fn wall_acceleration(
         &self,
-        pass: &Pass<'_>,
         meeting: &Meeting,
+        terms: &WallTerms,
         velocity: Vec3,
         p: f32,
         slope: Vec3,
     ) -> [Vec3; 2] {
-        let terms = pass.solids.terms(meeting);
         let n = meeting.contact.normal;
         // Wall pressure = the particle's, extrapolated: across the wall with gravity as the moving wall feels it,
         // along it with the fluid's own slope, of which the sum holds the part that is not in the wall. Where the
@@ -268,7 +268,7 @@ impl RowPass<7, 8> for RatesPass<'_> {
 
     fn row(self, pass: &Pass<'_>, i: usize, sums: [f32; 8], _: &mut [BodyLoad]) -> Rates {
         let (s, p) = (self.0, pass.particles);
-        let (xi, vi) = (p.position(i), p.velocity(i));
+        let vi = p.velocity(i);
         let [divergence, diffusion, lx, ly, lz, cx, cy, cz] = sums;
         let mut r = Rates {
             divergence: divergence * (s.support * s.scale),
@@ -278,11 +278,11 @@ impl RowPass<7, 8> for RatesPass<'_> {
             shift: Vec3::ZERO,
         };
         let mut crowding = r.crowding;
-        pass.solids.visit(xi, s.support, |m| {
-            let (gradient, n) = (pass.solids.terms(&m).gradient, m.contact.normal);
-            r.divergence += (m.contact.velocity - vi).dot(n) * gradient;
-            crowding += gradient * n;
-        });
+        for (m, terms) in pass.meetings.of(i) {
+            let n = m.contact.normal;
+            r.divergence += (m.contact.velocity - vi).dot(n) * terms.gradient;
+            crowding += terms.gradient * n;
+        }
         r.shift = -s.shifting * crowding;
         r
     }
@@ -325,19 +325,19 @@ impl RowPass<7, 6> for Accelerations<'_> {
 
     fn row(self, pass: &Pass<'_>, i: usize, sums: [f32; 6], loads: &mut [BodyLoad]) -> [f32; 4] {
         let (s, p, rates) = (self.solver, pass.particles, &self.rates[i]);
-        let (xi, vi) = (p.position(i), p.velocity(i));
+        let vi = p.velocity(i);
         let [px, py, pz, fx, fy, fz] = sums;
         let pressure = Vec3::new(px, py, pz) * (s.support * s.scale);
         let filter = Vec3::new(fx, fy, fz) * (s.filter * s.viscous_scale);
         let slope = pressure - 2.0 * p.aux[i] * rates.crowding;
         let mut total = s.viscosity * rates.laplacian - filter - pressure;
-        pass.solids.visit(xi, s.support, |m| {
-            let [push, drag] = s.wall_acceleration(pass, &m, vi, p.aux[i], slope);
+        for (m, terms) in pass.meetings.of(i) {
+            let [push, drag] = s.wall_acceleration(m, terms, vi, p.aux[i], slope);
             total += push + drag;
             if let (true, Some(body)) = (s.two_way, m.body) {
                 loads[body].react(push * s.mass, drag * s.mass, m.contact.arm);
             }
-        });
+        }
         [total.x, total.y, total.z, 0.0]
     }
 }
@@ -363,8 +363,7 @@ impl RowPass<3, 1> for Packing<'_> {
 
     fn row(self, pass: &Pass<'_>, i: usize, [sum]: [f32; 1], _: &mut [BodyLoad]) -> [f32; 4] {
         let s = self.0;
-        let mut total = sum * s.sum_scale;
-        pass.solids.visit(pass.particles.position(i), s.support, |m| total += pass.solids.terms(&m).volume);
-        [total, 0.0, 0.0, 0.0]
+        let solid: f32 = pass.meetings.of(i).iter().map(|(_, terms)| terms.volume).sum();
+        [sum * s.sum_scale + solid, 0.0, 0.0, 0.0]
     }
 }
