@@ -411,6 +411,13 @@ fn settings_are_read_set_and_refused_as_the_table_says() {
         (api.get(session, "fluid.two_way"), api.get(session, "fluid.gravity")),
         (Ok(0.0), Err(code::VALUE))
     );
+    // A liquid is several settings at once; one of them that is set after it is set over it.
+    assert_eq!(api.set_text(session, "fluid.liquid", "honey"), code::OK);
+    assert_eq!(text(&api, session, c"fluid.liquid"), "honey");
+    assert_eq!(api.set(session, "fluid.viscosity", 2.0), code::OK);
+    assert_eq!(api.get(session, "fluid.rest_density"), Ok(1430.0));
+    assert_eq!(text(&api, session, c"fluid.liquid"), "custom");
+    assert_eq!(api.set_text(session, "fluid.liquid", "milk"), code::VALUE);
     assert_eq!(api.get(session, "no.such"), Err(code::SETTING));
     assert_eq!(text(&api, session, c"fluid.gravity"), "[0, -2, 0]");
     assert_eq!(text(&api, session, c"run.backend"), "analytic-jet");

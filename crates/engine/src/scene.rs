@@ -162,10 +162,11 @@ pub struct Change {
 }
 
 impl Change {
-    /// The `settings` (paths and values) from `at_s` seconds on: in the order of their paths, of two for one the last.
+    /// The `settings` (paths and values) from `at_s` seconds on: shorthands first ([`settings::is_shorthand`]), then in
+    /// the order of their paths, of two for one the last.
     pub fn new(at_s: f64, mut settings: Vec<(String, Value)>) -> Self {
         settings.reverse();
-        settings.sort_by(|a, b| a.0.cmp(&b.0));
+        settings.sort_by_cached_key(|(path, _)| (!settings::is_shorthand(path), path.clone()));
         settings.dedup_by(|later, kept| later.0 == kept.0);
         Self { at_s, settings }
     }

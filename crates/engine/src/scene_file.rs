@@ -97,8 +97,10 @@ impl Reader<'_> {
             }
             ("hand", DeValue::Table(t)) => self.hand(scene, t)?,
             (section, DeValue::Table(t)) if !SECTIONS.contains(&section) => {
-                for (name, value) in t {
-                    let path = format!("{section}.{}", name.get_ref());
+                let field = |(name, value)| (format!("{section}.{}", Spanned::get_ref(name)), value);
+                let mut fields: Vec<(String, &Item<'_>)> = t.iter().map(field).collect();
+                fields.sort_by_key(|(path, _)| !settings::is_shorthand(path));
+                for (path, value) in fields {
                     let value_at = value.span().start;
                     let result = settings::set(scene, &path, &self.value(value)?);
                     result.map_err(|e| self.error_at(value_at, &e.to_string()))?;

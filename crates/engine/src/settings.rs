@@ -5,7 +5,7 @@
 
 use crate::scene::{BackendKind, DeviceKind, MotionOrigin, Obstacle, Scene, ToolSettings, ToolShape};
 use crate::{SceneError, Value};
-use hapflow_fluid::{InteractionMode, Solver, Source};
+use hapflow_fluid::{InteractionMode, Liquid, Solver, Source};
 use hapflow_haptics::{CouplingKind, FilterSpec};
 
 /// What a setting may be.
@@ -268,6 +268,20 @@ pub const SETTINGS: &[Setting<Scene>] = &[
         fluid.support,
         "Influence radius of a particle; 0 takes the solver's own (wcsph 2.7, muller 2.0), else at least 1.2."
     ),
+    Setting {
+        path: "fluid.liquid",
+        unit: "",
+        kind: Kind::Choice(&["custom", "water", "oil", "glycerine", "honey"]),
+        live: LIVE,
+        about: "Takes density, viscosity and surface tension of a liquid at 20 °C (honey 25 °C); single values are set over it. \"custom\" leaves them, and stands where they are no liquid's.",
+        get: |s| Value::Text(s.fluid.liquid().map_or("custom", liquid_name).into()),
+        set: |s, v| {
+            if let Some(liquid) = Liquid::ALL.into_iter().find(|&l| liquid_name(l) == v.text()) {
+                s.fluid.set_liquid(liquid);
+            }
+            Ok(())
+        },
+    },
     number!("fluid.rest_density", "kg/m³", 1e-3..=1e5, LIVE, fluid.rest_density, "Density at rest."),
     number!(
         "fluid.viscosity",
@@ -275,7 +289,7 @@ pub const SETTINGS: &[Setting<Scene>] = &[
         0.0..=1e4,
         LIVE,
         fluid.viscosity,
-        "Dynamic viscosity: water 0.001, oil 0.1, glycerine 1.4, honey 10. What the solver adds comes on top."
+        "Dynamic viscosity. What the solver adds comes on top."
     ),
     number!(
         "fluid.artificial_viscosity",
@@ -593,6 +607,21 @@ fn row<T>(setting: &Setting<T>, owner: &T, path: &str) -> String {
     format!("| {path} | {value} | {allowed} | {live} | {} |\n", setting.about.replace('|', "\\|"))
 }
 
+fn liquid_name(liquid: Liquid) -> &'static str {
+    match liquid {
+        Liquid::Water => "water",
+        Liquid::Oil => "oil",
+        Liquid::Glycerine => "glycerine",
+        Liquid::Honey => "honey",
+    }
+}
+
+/// Whether the setting says others in other words. In a table of a scene file and in a change these are taken first,
+/// so that the others are set over them; where settings come one by one the last wins.
+pub fn is_shorthand(path: &str) -> bool {
+    ["fluid.liquid", "fluid.rest_particles"].contains(&path)
+}
+
 fn set_filter(scene: &mut Scene, value: &Value) -> Result<(), String> {
     scene.run.filter = match value.text() {
         "auto" => None,
@@ -792,7 +821,7 @@ mod tests {
         for setting in SETTINGS {
             let mut copy = scene.clone();
             set(&mut copy, setting.path, &setting.get(&scene)).unwrap_or_else(|e| panic!("{e}"));
-            if setting.path != "fluid.rest_particles" {
+            if !is_shorthand(setting.path) {
                 assert_eq!(copy, scene, "{}", setting.path);
             }
         }
@@ -824,5 +853,24 @@ mod tests {
             Err(SceneError::NotLive(_))
         ));
         assert!(set_live(&mut scene, "fluid.viscosity", &Value::Number(1.0)).is_ok());
+    }
+
+    /// One by one, as on a command line, the last wins; the liquid is known by its values.
+    #[test]
+    fn a_liquid_sets_its_values_and_is_read_from_them() {
+        let mut scene = Scene::default();
+        let word = |text: &str| Value::Text(text.into());
+        let liquid = |scene: &Scene| get(scene, "fluid.liquid").unwrap();
+        assert_eq!(liquid(&scene), word("custom"));
+        set(&mut scene, "fluid.viscosity", &Value::Number(5.0)).unwrap();
+        set(&mut scene, "fluid.liquid", &word("glycerine")).unwrap();
+        assert_eq!((scene.fluid.viscosity, scene.fluid.surface_tension), (1.41, 0.0634));
+        assert_eq!(liquid(&scene), word("glycerine"));
+        set(&mut scene, "fluid.viscosity", &Value::Number(5.0)).unwrap();
+        assert_eq!((liquid(&scene), scene.fluid.rest_density), (word("custom"), 1261.0));
+        set_live(&mut scene, "fluid.liquid", &word("custom")).unwrap();
+        assert_eq!(scene.fluid.viscosity, 5.0);
+        let text = set(&mut scene, "fluid.liquid", &word("milk")).unwrap_err().to_string();
+        assert_eq!(text, "fluid.liquid = \"milk\": must be one of custom, water, oil, glycerine, honey");
     }
 }

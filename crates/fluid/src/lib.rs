@@ -21,6 +21,7 @@ mod grid;
 pub mod kernel;
 mod lanes;
 mod limits;
+mod liquid;
 mod meetings;
 mod neighbours;
 mod particles;
@@ -42,4 +43,5 @@ pub use config::{
 pub use control_volume::ControlVolume;
 pub use cpu::CpuBackend;
 pub use limits::{StepLimits, step_limits};
+pub use liquid::{Liquid, LiquidProperties};
 pub use shape::Shape;

@@ -81,8 +81,8 @@ impl<'a> Setup<'a> {
         let own = self.case.parameters.iter().zip(&self.values).map(|(p, v)| (p.name.to_string(), v.clone()));
         let (plain, scene) = (Scene::default(), Scene { fluid: fluid.clone(), ..Scene::default() });
         let table = settings::SETTINGS.iter().filter(|s| s.path.starts_with("fluid."));
-        let spacing = ["fluid.spacing", "fluid.rest_particles"];
-        let differing = table.filter(|s| !spacing.contains(&s.path) && s.get(&scene) != s.get(&plain));
+        let told = |path: &str| path == "fluid.spacing" || settings::is_shorthand(path);
+        let differing = table.filter(|s| !told(s.path) && s.get(&scene) != s.get(&plain));
         own.chain(differing.map(|s| (s.path.to_string(), s.get(&scene)))).collect()
     }
 

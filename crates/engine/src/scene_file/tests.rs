@@ -98,3 +98,21 @@ fn no_text_makes_the_reader_panic() {
         }
     }
 }
+
+/// A liquid comes before the single values of its table or its change, wherever it stands in them.
+#[test]
+fn a_liquid_is_taken_before_the_values_that_are_set_over_it() {
+    let scene = parse(
+        "[fluid]\nviscosity = 5.0\nliquid = \"honey\"\n[[change]]\nat_s = 1.0\n\
+         fluid.rest_density = 900.0\nfluid.liquid = \"oil\"\n",
+        "my.toml",
+    )
+    .unwrap();
+    assert_eq!((scene.fluid.rest_density, scene.fluid.viscosity), (1430.0, 5.0));
+    let mut later = scene.clone();
+    for (path, value) in &scene.changes[0].settings {
+        settings::set_live(&mut later, path, value).unwrap();
+    }
+    assert_eq!((later.fluid.rest_density, later.fluid.viscosity), (900.0, 0.084));
+    assert_eq!(settings::get(&later, "fluid.liquid").unwrap(), Value::Text("custom".into()));
+}

@@ -2,7 +2,7 @@
 
 use crate::Value;
 use crate::scene::{Change, Scene};
-use crate::settings::{Named, SETTINGS};
+use crate::settings::{Named, SETTINGS, is_shorthand};
 use glam::DVec3;
 use hapflow_devices::Segment;
 use hapflow_fluid::Aabb;
@@ -45,8 +45,8 @@ fn tables(scene: &Scene) -> String {
     let (usual, mut text, mut open) = (Scene::default(), String::new(), "");
     for setting in SETTINGS {
         let Some((table, field)) = setting.path.split_once('.') else { continue };
-        // The spacing once more, and rounded; and tools that have a list of their own.
-        let elsewhere = setting.path == "fluid.rest_particles" || (table == "tool" && has_tool_list(scene));
+        // Tools may have a list of their own.
+        let elsewhere = is_shorthand(setting.path) || (table == "tool" && has_tool_list(scene));
         let now = setting.get(scene);
         if elsewhere || now == setting.get(&usual) {
             continue;
