@@ -1,5 +1,6 @@
 //! `hapflow scenes` and `hapflow devices`.
 
+use crate::viscosity;
 use hapflow_engine::settings::table as settings_table;
 use hapflow_engine::{load, shipped};
 use std::io::Write;
@@ -17,6 +18,7 @@ pub fn scenes(settings: bool) {
     for (name, _) in shipped() {
         if let Ok(scene) = load(name) {
             say(&format!("{name:<18} {}", scene.about));
+            say(&format!("{:<18} viscosity {}", "", viscosity::told(&scene)));
         }
     }
     say("\nRun one with `hapflow run NAME`, or a TOML file of your own with `hapflow run FILE`.");

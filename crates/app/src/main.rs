@@ -13,6 +13,7 @@ mod outputs;
 mod run;
 mod summary;
 mod validate;
+mod viscosity;
 
 use clap::Parser;
 use std::process::ExitCode;

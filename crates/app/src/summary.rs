@@ -1,5 +1,6 @@
 //! The numbers of a run: `summary.json` and the table that people read.
 
+use crate::viscosity;
 use glam::DVec3;
 use hapflow_engine::run::{Outcome, TICK_S};
 use hapflow_engine::{Scene, signal};
@@ -11,6 +12,7 @@ pub struct Summary {
     ripple_rms: f64,
     lag: f64,
     max_force: f64,
+    viscosity: String,
     json: Value,
 }
 
@@ -40,11 +42,11 @@ impl Summary {
             "fluid_steps": outcome.fluid.total_substeps,
             "fluid_frames": outcome.fluid.frame,
             "degraded_frames": outcome.fluid.degraded,
-            "effective_viscosity_Pa_s": scene.fluid_config(1).effective_viscosity(),
+            "viscosity": viscosity::json(scene),
             "faults": outcome.faults.names().collect::<Vec<_>>(),
             "timing": timing(outcome),
         });
-        Self { mean_force, ripple_rms, lag, max_force, json }
+        Self { mean_force, ripple_rms, lag, max_force, viscosity: viscosity::told(scene), json }
     }
 
     /// As JSON.
@@ -65,6 +67,7 @@ impl Summary {
             row("lag, sent behind raw", format!("{:.1} ms", 1e3 * self.lag)),
             row("particles at the end", format!("{}", outcome.fluid.particles)),
             row("fluid sub-steps", format!("{}", outcome.fluid.total_substeps)),
+            row("viscosity", self.viscosity.clone()),
             row("faults and remarks", format!("{}", outcome.faults)),
             row(
                 "time per simulated s",

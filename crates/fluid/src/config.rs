@@ -2,6 +2,7 @@
 
 use crate::{FluidError, Shape, limits, solver};
 use glam::DVec3;
+use std::f64::consts::TAU;
 
 /// How the fluid is solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -317,10 +318,23 @@ impl FluidConfig {
         }
     }
 
-    /// Viscosity that acts on a flow whose wavelength is ten spacings: the stated one and the solver's own, Pa·s.
+    /// What the solver adds to the stated viscosity in a flow of this wavelength (m), Pa·s. `wcsph` adds the less the
+    /// longer the waves; in mode none nothing is viscous. `tests/effective_viscosity.rs` measures it.
+    pub fn added_viscosity(&self, wavelength: f64) -> f64 {
+        if self.settings.mode == InteractionMode::None {
+            return 0.0;
+        }
+        self.settings.rest_density * solver::added_viscosity(self, TAU / wavelength)
+    }
+
+    /// Wavelength at which the solver's own viscosity is told: ten spacings, the shortest that it resolves well, m.
+    pub fn resolved_wavelength(&self) -> f64 {
+        10.0 * self.settings.spacing
+    }
+
+    /// Viscosity that acts on a flow of the resolved wavelength: the stated one and the solver's own, Pa·s.
     pub fn effective_viscosity(&self) -> f64 {
-        let wave_number = std::f64::consts::TAU / (10.0 * self.settings.spacing);
-        self.settings.viscosity + self.settings.rest_density * solver::added_viscosity(self, wave_number)
+        self.settings.viscosity + self.added_viscosity(self.resolved_wavelength())
     }
 
     /// Refuses what cannot be computed or cannot be stable, naming field, value and range.

@@ -1,0 +1,68 @@
+//! The viscosity that the solver says it adds is the one that a wave of shear decays with.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod common;
+
+use common::{Run, vector};
+use glam::DVec3;
+use hapflow_fluid::{Aabb, FluidConfig, FluidSettings, World};
+use std::f64::consts::TAU;
+
+/// Side of the box, m.
+const SIDE: f64 = 0.1;
+/// Speed of the wave, m/s.
+const SPEED: f64 = 0.05;
+
+/// A box that repeats on all sides, `cells` spacings wide and high.
+fn filled(cells: u32, viscosity: f64) -> FluidConfig {
+    let spacing = SIDE / f64::from(cells);
+    let size = DVec3::new(SIDE, SIDE, 9.0 * spacing);
+    let bounds = Aabb { min: -0.5 * size, max: 0.5 * size };
+    let world = World { bounds, periodic: [true; 3], pools: vec![bounds], ..World::default() };
+    let settings = FluidSettings {
+        spacing,
+        viscosity,
+        gravity: DVec3::ZERO,
+        artificial_viscosity: 0.3,
+        sound_speed: 1.0,
+        background_pressure: 20.0,
+        ..FluidSettings::default()
+    };
+    FluidConfig { settings, world, frame_hz: 200.0, threads: 1 }
+}
+
+/// Amplitude of the wave along x that goes up and down along y, m/s.
+fn amplitude(run: &mut Run, wave_number: f64) -> f64 {
+    let view = run.snapshot();
+    let rows = view.positions.iter().zip(&view.velocities);
+    let sum: f64 = rows.map(|(x, v)| vector(v).x * (wave_number * vector(x).y).sin()).sum();
+    2.0 * sum / view.positions.len() as f64
+}
+
+/// Viscosity (Pa·s) that `waves` in the box decay with, while the fastest fluid goes ten spacings.
+fn measured(config: &FluidConfig, waves: f64) -> f64 {
+    let wave_number = TAU * waves / SIDE;
+    let mut run = Run::new(config);
+    run.fluid.set_flow(|x| DVec3::X * (SPEED * (wave_number * x.y).sin()));
+    let before = amplitude(&mut run, wave_number);
+    let frames = (10.0 * config.settings.spacing / SPEED * config.frame_hz).round();
+    for _ in 0..frames as u32 {
+        run.frame();
+    }
+    let rate = (before / amplitude(&mut run, wave_number)).ln() * config.frame_hz / frames;
+    config.settings.rest_density * rate / (wave_number * wave_number)
+}
+
+#[test]
+fn waves_of_shear_decay_by_the_stated_viscosity_and_the_reported_one() {
+    for cells in [20, 25] {
+        for waves in [2.0, 3.0] {
+            for stated in [0.0, 0.02] {
+                let config = filled(cells, stated);
+                let (added, all) = (config.added_viscosity(SIDE / waves), measured(&config, waves));
+                println!("{cells} cells, {waves} waves: {stated} + {added:.5} Pa·s, measured {all:.5}");
+                assert!((all / (stated + added) - 1.0).abs() < 0.15, "{stated} + {added}, but {all}");
+            }
+        }
+    }
+}
