@@ -5,7 +5,7 @@
 
 use crate::scene::{BackendKind, DeviceKind, MotionOrigin, Obstacle, Scene, ToolSettings, ToolShape};
 use crate::{SceneError, Value};
-use hapflow_fluid::{InteractionMode, Liquid, Solver, Source};
+use hapflow_fluid::{InteractionMode, Kernel, Liquid, Solver, Source};
 use hapflow_haptics::{CouplingKind, FilterSpec};
 
 /// What a setting may be.
@@ -260,6 +260,7 @@ pub const SETTINGS: &[Setting<Scene>] = &[
             Ok(())
         },
     },
+    choice!("fluid.kernel", LIVE, fluid.kernel, ["wendland" => Kernel::Wendland, "cubic" => Kernel::Cubic], "Kernel of wcsph: Wendland C2 or the cubic spline. muller has its own three."),
     number!(
         "fluid.support",
         "spacings",

@@ -3,7 +3,7 @@
 use crate::periodic::Periodic;
 use crate::shape::Frame;
 use crate::wall::WallTable;
-use crate::{BodyConfig, Shape};
+use crate::{BodyConfig, Kernel, Shape};
 use glam::{DQuat, DVec3, Vec3};
 
 /// Least mass of a driven body, as a share of the mass of fluid that it displaces (measured: stable from 0.06 in
@@ -306,13 +306,13 @@ impl BodyNow {
     }
 }
 
-/// One wall table a body, made when the support or the shape changes.
+/// One wall table a body, made when the kernel or the shape changes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BodyTables(Vec<WallTable>);
 
 impl BodyTables {
-    pub fn new(bodies: &[BodyConfig], support: f64) -> Self {
-        Self(bodies.iter().map(|b| WallTable::for_shape(&b.shape, support)).collect())
+    pub fn new(bodies: &[BodyConfig], kernel: Kernel, support: f64) -> Self {
+        Self(bodies.iter().map(|b| WallTable::for_shape(&b.shape, kernel, support)).collect())
     }
 
     pub fn get(&self, index: usize) -> &WallTable {

@@ -1,6 +1,6 @@
 //! What a fluid is made of: settings that may change while it runs, and the world it stands in.
 
-use crate::{FluidError, Shape, limits, solver};
+use crate::{FluidError, Kernel, Shape, limits, solver};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -35,6 +35,8 @@ pub struct FluidSettings {
     pub mode: InteractionMode,
     /// Rest particle spacing dx, m: a particle stands for ρ₀ dx³ of mass.
     pub spacing: f64,
+    /// Kernel of `wcsph`; `muller` has three of its own.
+    pub kernel: Kernel,
     /// Kernel support in spacings; 0 takes the solver's own (2.7 for `wcsph`, 2 for `muller`).
     pub support: f64,
     /// Rest density ρ₀, kg/m³.
@@ -88,6 +90,7 @@ impl Default for FluidSettings {
             solver: Solver::Wcsph,
             mode: InteractionMode::Full,
             spacing: 0.005,
+            kernel: Kernel::Wendland,
             support: 0.0,
             rest_density: 1000.0,
             viscosity: 0.001,

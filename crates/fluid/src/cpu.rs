@@ -167,8 +167,8 @@ impl Fluid {
             method: Method::new(config),
             walls: Walls::new(&config.world, config.settings.spacing),
             periodic: Periodic::new(&config.world),
-            plane: WallTable::plane(support),
-            tables: BodyTables::new(&config.world.bodies, support),
+            plane: WallTable::plane(config.settings.kernel, support),
+            tables: BodyTables::new(&config.world.bodies, config.settings.kernel, support),
             time: 0.0,
             substep: 0,
             max_speed: 0.0,
@@ -195,12 +195,13 @@ impl Fluid {
             body.config = *config;
         }
         self.emitters.resize(new.world.sources.len(), Emitter::default());
-        let support = new.settings.support_length();
+        let kernels = |config: &FluidConfig| (config.settings.kernel, config.settings.support_length());
+        let (kernel, support) = kernels(new);
         let shapes = |config: &FluidConfig| config.world.bodies.iter().map(|b| b.shape).collect::<Vec<_>>();
         // A table costs milliseconds: a body that only moves or weighs otherwise keeps its own.
-        if support != old.settings.support_length() || shapes(old) != shapes(new) {
-            self.plane = WallTable::plane(support);
-            self.tables = BodyTables::new(&new.world.bodies, support);
+        if kernels(old) != kernels(new) || shapes(old) != shapes(new) {
+            self.plane = WallTable::plane(kernel, support);
+            self.tables = BodyTables::new(&new.world.bodies, kernel, support);
         }
         self.walls = Walls::new(&new.world, new.settings.spacing);
         self.periodic = Periodic::new(&new.world);

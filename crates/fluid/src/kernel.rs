@@ -1,11 +1,67 @@
 //! Smoothing kernels of support `h` (no influence beyond it), three-dimensional and normalised.
 //!
 //! `Muller` uses poly6, spiky and viscosity of Müller, Charypar & Gross 2003 (SCA 2003, "Particle-based fluid
-//! simulation for interactive applications"); `Wcsph` uses Wendland C2 (Wendland 1995,
-//! doi:10.1007/BF02123482; for SPH Dehnen & Aly 2012, doi:10.1111/j.1365-2966.2012.21439.x).
-//! These scalar forms are the reference; the pair loops hold the same polynomials in lanes.
+//! simulation for interactive applications"); `Wcsph` uses a [`Kernel`] of choice: Wendland C2 (Wendland 1995,
+//! doi:10.1007/BF02123482; for SPH Dehnen & Aly 2012, doi:10.1111/j.1365-2966.2012.21439.x) or the cubic spline
+//! (Monaghan & Lattanzio 1985, A&A 149, 135; doi:10.1146/annurev.aa.30.090192.002551 has it too).
+//! These scalar forms are the reference; `pair_kernel.rs` holds the same polynomials in lanes.
 
 use std::f64::consts::PI;
+
+/// Kernel of `wcsph`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kernel {
+    /// Wendland C2.
+    Wendland,
+    /// The cubic spline, whose smoothing length is half the support.
+    Cubic,
+}
+
+impl Kernel {
+    /// Value, 1/m³.
+    pub fn value(self, r: f64, h: f64) -> f64 {
+        match self {
+            Self::Wendland => wendland(r, h),
+            Self::Cubic => cubic(r, h),
+        }
+    }
+
+    /// Derivative over r, (dW/dr)/r, 1/m⁵ (never positive).
+    pub fn slope_over_r(self, r: f64, h: f64) -> f64 {
+        match self {
+            Self::Wendland => wendland_slope_over_r(r, h),
+            Self::Cubic => cubic_slope_over_r(r, h),
+        }
+    }
+
+    /// The constant of [`slope_over_r`](Self::slope_over_r), 1/m⁵.
+    pub fn gradient_scale(self, h: f64) -> f64 {
+        match self {
+            Self::Wendland => wendland_gradient_scale(h),
+            Self::Cubic => cubic_gradient_scale(h),
+        }
+    }
+
+    /// K for which −K/h² Σ V (dW/dr)/r (Δv·d) d is the Laplacian of v, where div v = 0: 2/K is the mean of the fourth
+    /// moments, (4π/15) ∫ −W' r⁵ dr, over h².
+    pub fn viscous_factor(self) -> f64 {
+        match self {
+            Self::Wendland => 30.0,
+            Self::Cubic => 80.0 / 3.0,
+        }
+    }
+
+    /// First moment of the gradient over a cubic lattice of spacing `dx`: 1 in the continuum. Volumes divided by it
+    /// make the discrete gradient exact for linear fields on the lattice.
+    pub fn lattice_moment(self, dx: f64, h: f64) -> f64 {
+        lattice_sum(dx, h, |r, x| -self.slope_over_r(r, h) * x * x)
+    }
+
+    /// Sum of the kernel over a cubic lattice of spacing `dx`: 1 in the continuum.
+    pub fn lattice_sum(self, dx: f64, h: f64) -> f64 {
+        lattice_sum(dx, h, |r, _| self.value(r, h))
+    }
+}
 
 /// Poly6 value, 1/m³.
 pub fn poly6(r: f64, h: f64) -> f64 {
@@ -50,15 +106,23 @@ pub fn wendland_gradient_scale(h: f64) -> f64 {
     20.0 * 21.0 / (2.0 * PI * h.powi(5))
 }
 
-/// First moment of the Wendland gradient over a cubic lattice of spacing `dx`: 1 in the continuum.
-/// Volumes divided by it make the discrete gradient exact for linear fields on the lattice.
-pub fn wendland_lattice_moment(dx: f64, h: f64) -> f64 {
-    lattice_sum(dx, h, |r, x| -wendland_slope_over_r(r, h) * x * x)
+/// Cubic spline value, 1/m³.
+pub fn cubic(r: f64, h: f64) -> f64 {
+    let q = r / h;
+    let (outer, inner) = ((1.0 - q).max(0.0), (0.5 - q).max(0.0));
+    8.0 / (PI * h.powi(3)) * (2.0 * outer.powi(3) - 8.0 * inner.powi(3))
 }
 
-/// Sum of the Wendland kernel over a cubic lattice of spacing `dx`: 1 in the continuum.
-pub fn wendland_lattice_sum(dx: f64, h: f64) -> f64 {
-    lattice_sum(dx, h, |r, _| wendland(r, h))
+/// Cubic spline derivative over r, (dW/dr)/r, 1/m⁵.
+pub fn cubic_slope_over_r(r: f64, h: f64) -> f64 {
+    let q = (r / h).min(1.0);
+    let bend = (2.0 * q - 1.0).max(0.0).powi(2) / q.max(0.5);
+    -cubic_gradient_scale(h) * (2.0 - 3.0 * q + bend)
+}
+
+/// The constant of [`cubic_slope_over_r`], 1/m⁵.
+pub fn cubic_gradient_scale(h: f64) -> f64 {
+    48.0 / (PI * h.powi(5))
 }
 
 fn lattice_sum(dx: f64, h: f64, term: impl Fn(f64, f64) -> f64) -> f64 {
@@ -79,6 +143,8 @@ fn lattice_sum(dx: f64, h: f64, term: impl Fn(f64, f64) -> f64) -> f64 {
 mod tests {
     use super::*;
 
+    const KERNELS: [Kernel; 2] = [Kernel::Wendland, Kernel::Cubic];
+
     /// ∫ f(r) 4πr² dr over the support, by the midpoint rule.
     fn ball_integral(h: f64, f: impl Fn(f64) -> f64) -> f64 {
         let n = 20_000;
@@ -90,7 +156,9 @@ mod tests {
     fn kernels_are_normalised() {
         for h in [0.01, 0.3] {
             assert!((ball_integral(h, |r| poly6(r, h)) - 1.0).abs() < 1e-6);
-            assert!((ball_integral(h, |r| wendland(r, h)) - 1.0).abs() < 1e-6);
+            for kernel in KERNELS {
+                assert!((ball_integral(h, |r| kernel.value(r, h)) - 1.0).abs() < 1e-6);
+            }
             // ∫ W = −∫ (r/3) W' for any kernel that vanishes at its edge.
             assert!((ball_integral(h, |r| -r / 3.0 * spiky_slope(r, h)) - 1.0).abs() < 1e-6);
             // A Laplacian that reproduces ∇²(r²) = 6 has second moment 6: the viscosity kernel's.
@@ -103,11 +171,12 @@ mod tests {
         let (h, e) = (0.2, 1e-6);
         for k in 1..19 {
             let r = 0.01 * f64::from(k);
-            let numeric = |w: fn(f64, f64) -> f64| (w(r + e, h) - w(r - e, h)) / (2.0 * e);
-            assert!((numeric(poly6) / r - poly6_slope_over_r(r, h)).abs() < 1e-3 * poly6(0.0, h) / h / h);
-            assert!(
-                (numeric(wendland) / r - wendland_slope_over_r(r, h)).abs() < 1e-3 * wendland(0.0, h) / h / h
-            );
+            let numeric = |w: &dyn Fn(f64) -> f64| (w(r + e) - w(r - e)) / (2.0 * e);
+            let near = |a: f64, b: f64| (a - b).abs() < 1e-3 * poly6(0.0, h) / h / h;
+            assert!(near(numeric(&|r| poly6(r, h)) / r, poly6_slope_over_r(r, h)));
+            for kernel in KERNELS {
+                assert!(near(numeric(&|r| kernel.value(r, h)) / r, kernel.slope_over_r(r, h)));
+            }
             let second = (poly6(r + 1e-4, h) - 2.0 * poly6(r, h) + poly6(r - 1e-4, h)) / 1e-8;
             let laplacian = second + 2.0 * poly6_slope_over_r(r, h);
             assert!((laplacian - poly6_laplacian(r, h)).abs() < 1e-3 * poly6(0.0, h) / h / h);
@@ -116,10 +185,21 @@ mod tests {
 
     #[test]
     fn lattice_sums_approach_one() {
-        for ratio in [2.4, 2.7, 3.2] {
-            assert!((wendland_lattice_moment(0.01, 0.01 * ratio) - 1.0).abs() < 0.04);
-            assert!((wendland_lattice_sum(0.01, 0.01 * ratio) - 1.0).abs() < 0.04);
+        for kernel in KERNELS {
+            for ratio in [2.4, 2.7, 3.2] {
+                assert!((kernel.lattice_moment(0.01, 0.01 * ratio) - 1.0).abs() < 0.04);
+                assert!((kernel.lattice_sum(0.01, 0.01 * ratio) - 1.0).abs() < 0.04);
+            }
+            assert!((kernel.lattice_moment(0.01, 0.06) - 1.0).abs() < 1e-3);
         }
-        assert!((wendland_lattice_moment(0.01, 0.06) - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn the_viscous_factor_is_that_of_the_fourth_moment() {
+        for kernel in KERNELS {
+            let h = 0.3;
+            let moment = ball_integral(h, |r| -kernel.slope_over_r(r, h) * r.powi(4) / 15.0) / (h * h);
+            assert!((2.0 / moment / kernel.viscous_factor() - 1.0).abs() < 1e-6);
+        }
     }
 }

@@ -24,6 +24,7 @@ mod limits;
 mod liquid;
 mod meetings;
 mod neighbours;
+mod pair_kernel;
 mod particles;
 mod periodic;
 mod pools;
@@ -42,6 +43,7 @@ pub use config::{
 };
 pub use control_volume::ControlVolume;
 pub use cpu::CpuBackend;
+pub use kernel::Kernel;
 pub use limits::{StepLimits, step_limits};
 pub use liquid::{Liquid, LiquidProperties};
 pub use shape::Shape;

@@ -104,7 +104,8 @@ mod tests {
         let config = FluidConfig { settings, world, frame_hz: 100.0, threads: 1 };
         let mut particles = Particles::new();
         particles.extend(&[Newborn { position: Vec3::splat(0.005), ..Newborn::default() }; 100]);
-        let (walls, plane) = (Walls::new(&config.world, 0.01), WallTable::plane(0.027));
+        let (walls, plane) =
+            (Walls::new(&config.world, 0.01), WallTable::plane(config.settings.kernel, 0.027));
         let tables = BodyTables::default();
         let solids = Solids { walls: &walls, bodies: &[], plane: &plane, tables: &tables };
         restack(&mut particles, &config, &solids);

@@ -2,7 +2,7 @@
 //!
 //! Slow and obvious on purpose: tests hold the fast passes against it.
 
-use crate::kernel;
+use crate::{Kernel, kernel};
 use glam::DVec3;
 
 /// One particle.
@@ -63,6 +63,8 @@ impl MullerTwin {
 /// Constants of the `wcsph` sums.
 #[derive(Clone, Copy, Debug)]
 pub struct WcsphTwin {
+    /// Kernel.
+    pub kernel: Kernel,
     /// Support, m.
     pub h: f64,
     /// Volume of a particle in the gradient sums, m³.
@@ -88,7 +90,7 @@ impl WcsphTwin {
         let term = |b: &Twin| {
             let d = b.x - a.x;
             let dp = b.p - a.p - self.gravity.dot(d);
-            -2.0 * self.volume * dp * kernel::wendland_slope_over_r(d.length(), self.h)
+            -2.0 * self.volume * dp * self.kernel.slope_over_r(d.length(), self.h)
         };
         all.iter().map(term).sum()
     }
@@ -98,12 +100,21 @@ impl WcsphTwin {
         all.iter().map(|b| self.volume * self.gradient(&all[i], b)).sum()
     }
 
+    /// Σ W at particle `i`, 1/m³.
+    pub fn sum(&self, all: &[Twin], i: usize) -> f64 {
+        all.iter().map(|b| self.kernel.value(b.x.distance(all[i].x), self.h)).sum()
+    }
+
     /// Laplacian of a field at particle `i` (the viscous sum, for a unit viscosity).
     pub fn laplacian(&self, all: &[Twin], i: usize, field: impl Fn(usize) -> DVec3) -> DVec3 {
         let term = |(k, b): (usize, &Twin)| {
-            let slope = kernel::wendland_slope_over_r(all[i].x.distance(b.x), self.h);
+            let slope = self.kernel.slope_over_r(all[i].x.distance(b.x), self.h);
             let d = b.x - all[i].x;
-            -30.0 / (self.h * self.h) * self.volume * slope * (field(k) - field(i)).dot(d) * d
+            -self.kernel.viscous_factor() / (self.h * self.h)
+                * self.volume
+                * slope
+                * (field(k) - field(i)).dot(d)
+                * d
         };
         all.iter().enumerate().map(term).sum()
     }
@@ -118,6 +129,6 @@ impl WcsphTwin {
 
     /// ∇_a W.
     fn gradient(&self, a: &Twin, b: &Twin) -> DVec3 {
-        kernel::wendland_slope_over_r(a.x.distance(b.x), self.h) * (a.x - b.x)
+        self.kernel.slope_over_r(a.x.distance(b.x), self.h) * (a.x - b.x)
     }
 }

@@ -1,7 +1,7 @@
 //! Walls and bodies as analytic volumes: what the solid part of a particle's support adds to its sums.
 //!
 //! For a particle at signed distance d from the surface, with the solid S filling part of its support, four
-//! integrals of the Wendland kernel over S depend on d alone (for a plane, and for a sphere of known radius):
+//! integrals of the kernel over S depend on d alone (for a plane, and for a sphere of known radius):
 //! λ = ∫W, g = n·∫∇W, and the tensor ∫(x'−x)⊗∇W = tn n⊗n + tt (I − n⊗n); and the viscous sum for a velocity
 //! that goes on linearly into the wall and has the wall's value at its surface, so that a uniform shear ends at
 //! the wall without a fault. With a wall pressure extrapolated linearly (gravity and the wall's acceleration
@@ -10,7 +10,7 @@
 //! 2020, doi:10.1145/3414685.3417829), pressure and velocity extrapolation (Adami, Hu & Adams 2012,
 //! doi:10.1016/j.jcp.2012.05.005).
 
-use crate::{Shape, kernel};
+use crate::{Kernel, Shape};
 use std::f64::consts::PI;
 
 const CELLS: usize = 512;
@@ -39,19 +39,19 @@ pub(crate) struct WallTable {
 
 impl WallTable {
     /// For a flat wall.
-    pub fn plane(support: f64) -> Self {
-        Self::tabulate(support, |d, s| d / s)
+    pub fn plane(kernel: Kernel, support: f64) -> Self {
+        Self::tabulate(kernel, support, |d, s| d / s)
     }
 
     /// For the surface of `shape`: exact for a sphere. A tube gets the sphere of equal mean curvature, which is
     /// all of a curvature that the integrals know in first order. Edges are taken for flat.
-    pub fn for_shape(shape: &Shape, support: f64) -> Self {
+    pub fn for_shape(shape: &Shape, kernel: Kernel, support: f64) -> Self {
         let curvature = shape.mean_curvature();
         if curvature == 0.0 {
-            return Self::plane(support);
+            return Self::plane(kernel, support);
         }
         let radius = 1.0 / curvature;
-        Self::tabulate(support, |d, s| {
+        Self::tabulate(kernel, support, |d, s| {
             // Of a hollow sphere the radius is negative, and so is the distance from its centre.
             let centre = if radius > 0.0 { (radius + d).max(1e-9) } else { (radius + d).min(-1e-9) };
             (centre * centre + s * s - radius * radius) / (2.0 * centre * s)
@@ -59,9 +59,9 @@ impl WallTable {
     }
 
     /// `cap(d, s)`: cosine of the cap's opening, seen from the particle, on the shell of radius s.
-    fn tabulate(support: f64, cap: impl Fn(f64, f64) -> f64) -> Self {
+    fn tabulate(kernel: Kernel, support: f64, cap: impl Fn(f64, f64) -> f64) -> Self {
         let (start, step) = (-0.5 * support, 1.5 * support / CELLS as f64);
-        let terms = (0..=CELLS).map(|k| integrate(support, start + step * k as f64, &cap)).collect();
+        let terms = (0..=CELLS).map(|k| integrate(kernel, support, start + step * k as f64, &cap)).collect();
         Self { inverse_step: (1.0 / step) as f32, start: start as f32, terms }
     }
 
@@ -82,21 +82,22 @@ impl WallTable {
     }
 }
 
-fn integrate(support: f64, d: f64, cap: &impl Fn(f64, f64) -> f64) -> WallTerms {
+fn integrate(kernel: Kernel, support: f64, d: f64, cap: &impl Fn(f64, f64) -> f64) -> WallTerms {
     const SHELLS: usize = 250;
     let ds = support / SHELLS as f64;
+    let viscous = kernel.viscous_factor() / 8.0;
     let [mut volume, mut gradient, mut normal, mut tangent, mut friction] = [0.0; 5];
     for m in 0..SHELLS {
         let s = (m as f64 + 0.5) * ds;
         let mu = cap(d, s).clamp(-1.0, 1.0);
         let shell = 2.0 * PI * s * s * ds;
-        let slope = kernel::wendland_slope_over_r(s, support) * s;
+        let slope = kernel.slope_over_r(s, support) * s;
         let cube = 1.0 - mu.powi(3);
-        volume += shell * kernel::wendland(s, support) * (1.0 - mu);
+        volume += shell * kernel.value(s, support) * (1.0 - mu);
         gradient += shell * slope * (1.0 - mu * mu) / 2.0;
         normal -= shell * s * slope * cube / 3.0;
         tangent -= shell * s * slope * ((1.0 - mu) / 2.0 - cube / 6.0);
-        friction -= shell * slope * 3.75 * (s / support * (1.0 - mu * mu)).powi(2);
+        friction -= shell * slope * viscous * (s / support * (1.0 - mu * mu)).powi(2);
     }
     WallTerms {
         volume: volume as f32,
@@ -111,19 +112,24 @@ fn integrate(support: f64, d: f64, cap: &impl Fn(f64, f64) -> f64) -> WallTerms 
 mod tests {
     use super::*;
 
+    const KERNELS: [Kernel; 2] = [Kernel::Wendland, Kernel::Cubic];
+
     #[test]
     fn a_plane_through_the_particle_takes_half() {
-        let h = 0.02;
-        let t = WallTable::plane(h).at(0.0);
-        assert!((t.volume - 0.5).abs() < 1e-3);
-        // Half of the full first moment ∫(x'−x)⊗∇W = I.
-        assert!((t.normal_moment - 0.5).abs() < 2e-3 && (t.tangent_moment - 0.5).abs() < 2e-3);
+        for kernel in KERNELS {
+            let t = WallTable::plane(kernel, 0.02).at(0.0);
+            assert!((t.volume - 0.5).abs() < 1e-3);
+            // Half of the full first moment ∫(x'−x)⊗∇W = I.
+            assert!((t.normal_moment - 0.5).abs() < 2e-3 && (t.tangent_moment - 0.5).abs() < 2e-3);
+        }
     }
 
     #[test]
     fn gradient_is_the_slope_of_the_volume() {
         let h = 0.02_f64;
-        for table in [WallTable::plane(h), WallTable::for_shape(&Shape::Sphere { radius: 0.03 }, h)] {
+        let ball = Shape::Sphere { radius: 0.03 };
+        let tables = |kernel| [WallTable::plane(kernel, h), WallTable::for_shape(&ball, kernel, h)];
+        for table in KERNELS.into_iter().flat_map(tables) {
             for k in -8..18 {
                 let (d, e) = (h as f32 * 0.05 * k as f32, 2e-4_f32);
                 let slope = (table.at(d + e).volume - table.at(d - e).volume) / (2.0 * e);
@@ -136,8 +142,10 @@ mod tests {
     #[test]
     fn a_huge_sphere_is_a_plane() {
         let h = 0.01;
-        let (plane, sphere) =
-            (WallTable::plane(h), WallTable::for_shape(&Shape::Sphere { radius: 100.0 }, h));
+        let (plane, sphere) = (
+            WallTable::plane(Kernel::Wendland, h),
+            WallTable::for_shape(&Shape::Sphere { radius: 100.0 }, Kernel::Wendland, h),
+        );
         for k in -4..10 {
             let d = 0.001 * k as f32;
             assert!((plane.at(d).volume - sphere.at(d).volume).abs() < 1e-3);

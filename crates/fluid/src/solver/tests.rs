@@ -10,7 +10,7 @@ use crate::solids::{Solids, Walls};
 use crate::solver::{muller::Muller, wcsph::Wcsph};
 use crate::twin::{MullerTwin, Twin, WcsphTwin};
 use crate::wall::WallTable;
-use crate::{Aabb, FluidConfig, FluidSettings, Solver, World, kernel};
+use crate::{Aabb, FluidConfig, FluidSettings, Kernel, Solver, World};
 use glam::{DVec3, Vec3};
 
 fn config(solver: Solver) -> FluidConfig {
@@ -64,7 +64,10 @@ fn each_pass(config: &FluidConfig, check: impl Fn(&mut Particles, &dyn Fn(&Parti
         grid.sort(&mut particles, spacing, support as f32, &vec![false; n]);
         let mut neighbours = Neighbours::default();
         neighbours.find(arch, &grid, &particles, spacing, support as f32);
-        let (walls, plane) = (Walls::new(&config.world, config.settings.spacing), WallTable::plane(support));
+        let (walls, plane) = (
+            Walls::new(&config.world, config.settings.spacing),
+            WallTable::plane(config.settings.kernel, support),
+        );
         let tables = BodyTables::default();
         check(&mut particles, &|particles, run| {
             let solids = Solids { walls: &walls, bodies: &[], plane: &plane, tables: &tables };
@@ -118,18 +121,26 @@ fn muller_passes_equal_the_twin() {
 
 #[test]
 fn wcsph_passes_equal_the_twin() {
-    let config = config(Solver::Wcsph);
+    for kernel in [Kernel::Wendland, Kernel::Cubic] {
+        let mut config = config(Solver::Wcsph);
+        config.settings.kernel = kernel;
+        hold_wcsph_against_the_twin(&config);
+    }
+}
+
+fn hold_wcsph_against_the_twin(config: &FluidConfig) {
     let s = &config.settings;
     let (dx, h, c) = (s.spacing, s.support_length(), config.sound_speed());
     let twin = WcsphTwin {
+        kernel: s.kernel,
         h,
-        volume: dx.powi(3) / kernel::wendland_lattice_moment(dx, h),
+        volume: dx.powi(3) / s.kernel.lattice_moment(dx, h),
         viscosity: s.kinematic_viscosity(),
-        filter: super::wcsph::noise_filter(&config),
+        filter: super::wcsph::noise_filter(config),
         gravity: s.gravity,
     };
-    let solver = Wcsph::new(&config);
-    each_pass(&config, |particles, with_pass| {
+    let solver = Wcsph::new(config);
+    each_pass(config, |particles, with_pass| {
         let rates = std::cell::RefCell::new(Vec::new());
         let all = twins(particles, |_| 1000.0);
         let each = |f: &dyn Fn(usize) -> DVec3| (0..all.len()).map(f).collect::<Vec<_>>();
@@ -168,6 +179,9 @@ fn wcsph_passes_equal_the_twin() {
         });
         let expected = each(&|i| twin.acceleration(&all, &laplacians, i));
         assert_rows(rows.borrow().iter().map(vector), expected.into_iter());
+        with_pass(particles, &|pass| solver.packing(pass, &mut Scratch::default(), &mut rows.borrow_mut()));
+        let fill = |i: usize| twin.sum(&all, i) / s.kernel.lattice_sum(dx, h) * dx.powi(3);
+        assert_rows(rows.borrow().iter().map(vector), each(&|i| DVec3::X * fill(i)).into_iter());
     });
 }
 

@@ -1,12 +1,12 @@
 //! Weakly compressible SPH with density diffusion and particle shifting (δ⁺-SPH), staggered in time.
 //!
-//! State is the pressure over rest density P = p/ρ₀ (m²/s²). With V the volume of a particle, f = C (1−r/H)³ V
-//! the Wendland gradient over r, d = x_j − x_i:
+//! State is the pressure over rest density P = p/ρ₀ (m²/s²). With V the volume of a particle, f = −W'/r V, d = x_j − x_i, and
+//! K = 30 for the Wendland kernel, with f ~ (1−r/H)³, and 80/3 for the cubic spline:
 //!
 //! ```text
 //! dP_i/dt = −c² Σ f (v_j−v_i)·d + δ (H/2) c Σ 2 f (P_j − P_i − g·d) + q_i           at x(t+dt), v(t+dt)
-//! L_i     = 30/H² Σ f ((v_j−v_i)·d) d                                               ∇²v where div v = 0
-//! a_i     = −Σ f (P̂_i + P̂_j) d + ν L_i − 30 κ/H² Σ f ((L_j−L_i)·d) d + walls + g
+//! L_i     = K/H² Σ f ((v_j−v_i)·d) d                                               ∇²v where div v = 0
+//! a_i     = −Σ f (P̂_i + P̂_j) d + ν L_i − κ K/H² Σ f ((L_j−L_i)·d) d + walls + g
 //! δx_i    = −σ c dx Σ f d dt                                                        within the fluid
 //! ```
 //!
@@ -27,10 +27,11 @@
 use super::{Pass, Record, RowPass, Rows, Scratch, sweep};
 use crate::body::BodyLoad;
 use crate::lanes::{add_scaled, difference, dot, fma};
+use crate::pair_kernel::{Cubic, PairKernel, Wendland};
 use crate::particles::Particles;
 use crate::solids::Meeting;
 use crate::wall::WallTerms;
-use crate::{FluidConfig, kernel};
+use crate::{FluidConfig, Kernel};
 use glam::Vec3;
 use pulp::Simd;
 
@@ -51,9 +52,10 @@ pub(crate) fn artificial_viscosity(config: &FluidConfig) -> f64 {
 }
 
 /// κ, m⁴/s: in a flow of wave number k it acts as a kinematic viscosity κ k². The viscous sum answers noise with
-/// about −30/H² of it.
+/// about −K/H² of it.
 pub(crate) fn noise_filter(config: &FluidConfig) -> f64 {
-    artificial_viscosity(config) * config.settings.support_length().powi(2) / 30.0
+    artificial_viscosity(config) * config.settings.support_length().powi(2)
+        / config.settings.kernel.viscous_factor()
 }
 
 /// Tension that the fluid bears before it parts, in ρ₀ c²: a falling jet is drawn together by it. That of water's surface
@@ -75,6 +77,7 @@ const SPRAY_TIME: f32 = 0.003;
 /// Constants of one configuration.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wcsph {
+    kernel: Kernel,
     support: f32,
     inverse_support: f32,
     /// C V: scale of f.
@@ -104,17 +107,34 @@ pub(crate) struct Wcsph {
     two_way: bool,
 }
 
+/// Runs the body for the kernel's own type, so that its pair loop is compiled for it alone.
+macro_rules! with_kernel {
+    ($kernel:expr, |$k:ident| $body:expr) => {
+        match $kernel {
+            Kernel::Wendland => {
+                let $k = Wendland;
+                $body
+            }
+            Kernel::Cubic => {
+                let $k = Cubic;
+                $body
+            }
+        }
+    };
+}
+
 impl Wcsph {
     pub fn new(config: &FluidConfig) -> Self {
         let s = &config.settings;
         let (dx, h, c) = (s.spacing, s.support_length(), config.sound_speed());
-        let volume = dx.powi(3) / kernel::wendland_lattice_moment(dx, h);
+        let volume = dx.powi(3) / s.kernel.lattice_moment(dx, h);
         Self {
+            kernel: s.kernel,
             support: h as f32,
             inverse_support: (1.0 / h) as f32,
-            scale: (kernel::wendland_gradient_scale(h) * volume) as f32,
-            viscous_scale: (30.0 * kernel::wendland_gradient_scale(h) * volume) as f32,
-            sum_scale: (kernel::wendland(0.0, h) * dx.powi(3) / kernel::wendland_lattice_sum(dx, h)) as f32,
+            scale: (s.kernel.gradient_scale(h) * volume) as f32,
+            viscous_scale: (s.kernel.viscous_factor() * s.kernel.gradient_scale(h) * volume) as f32,
+            sum_scale: (s.kernel.value(0.0, h) * dx.powi(3) / s.kernel.lattice_sum(dx, h)) as f32,
             mass: s.particle_mass() as f32,
             sound: c as f32,
             diffusion: (s.density_diffusion * 0.5 * h * c) as f32,
@@ -133,12 +153,12 @@ impl Wcsph {
 
     /// What the pressures change by, and what the accelerations need.
     pub fn rates(&self, pass: Pass<'_>, scratch: &mut Scratch, rates: &mut Vec<Rates>) {
-        sweep(pass, RatesPass(self), rates, scratch, &mut []);
+        with_kernel!(self.kernel, |k| sweep(pass, RatesPass(self, k), rates, scratch, &mut []));
     }
 
     /// Rows of [share of the neighbourhood that is filled, –, –, –].
     pub fn packing(&self, pass: Pass<'_>, scratch: &mut Scratch, rows: &mut Rows) {
-        sweep(pass, Packing(self), rows, scratch, &mut []);
+        with_kernel!(self.kernel, |k| sweep(pass, Packing(self, k), rows, scratch, &mut []));
     }
 
     /// Rows of [acceleration without gravity m/s², –]; adds the bodies' loads.
@@ -150,7 +170,9 @@ impl Wcsph {
         rows: &mut Rows,
         loads: &mut [BodyLoad],
     ) {
-        sweep(pass, Accelerations { solver: self, rates }, rows, scratch, loads);
+        with_kernel!(self.kernel, |kernel| {
+            sweep(pass, Accelerations { solver: self, kernel, rates }, rows, scratch, loads)
+        });
     }
 
     /// Sets the packing feedback from the summed densities.
@@ -240,9 +262,9 @@ pub(crate) struct Rates {
 }
 
 #[derive(Clone, Copy)]
-struct RatesPass<'a>(&'a Wcsph);
+struct RatesPass<'a, K>(&'a Wcsph, K);
 
-impl RowPass<7, 8> for RatesPass<'_> {
+impl<K: PairKernel> RowPass<7, 8> for RatesPass<'_, K> {
     type Row = Rates;
 
     fn record(self, p: &Particles, i: usize) -> Record {
@@ -254,7 +276,8 @@ impl RowPass<7, 8> for RatesPass<'_> {
 
     #[inline(always)]
     fn pair<S: Simd>(self, simd: S, i: &[S::f32s; 7], j: &[S::f32s; 7], sums: &mut [S::f32s; 8]) {
-        let (d, _, f) = slope(simd, [i[0], i[1], i[2]], [j[0], j[1], j[2]]);
+        let (d, r) = apart(simd, [i[0], i[1], i[2]], [j[0], j[1], j[2]]);
+        let f = self.1.slope(simd, r);
         let dv = difference(simd, [i[4], i[5], i[6]], [j[4], j[5], j[6]]);
         let opening = simd.mul_f32s(f, dot(simd, dv, d));
         let [divergence, diffusion, laplacian @ .., cx, cy, cz] = sums;
@@ -288,22 +311,21 @@ impl RowPass<7, 8> for RatesPass<'_> {
     }
 }
 
-/// d, r and f = (1−r)³ of pairs, in supports.
+/// d and r of pairs, in supports.
 #[inline(always)]
-fn slope<S: Simd>(simd: S, i: [S::f32s; 3], j: [S::f32s; 3]) -> ([S::f32s; 3], S::f32s, S::f32s) {
+fn apart<S: Simd>(simd: S, i: [S::f32s; 3], j: [S::f32s; 3]) -> ([S::f32s; 3], S::f32s) {
     let d = difference(simd, i, j);
-    let r = simd.sqrt_f32s(dot(simd, d, d));
-    let t = simd.max_f32s(simd.sub_f32s(simd.splat_f32s(1.0), r), simd.splat_f32s(0.0));
-    (d, r, simd.mul_f32s(simd.mul_f32s(t, t), t))
+    (d, simd.sqrt_f32s(dot(simd, d, d)))
 }
 
 #[derive(Clone, Copy)]
-struct Accelerations<'a> {
+struct Accelerations<'a, K> {
     solver: &'a Wcsph,
+    kernel: K,
     rates: &'a [Rates],
 }
 
-impl RowPass<7, 6> for Accelerations<'_> {
+impl<K: PairKernel> RowPass<7, 6> for Accelerations<'_, K> {
     type Row = [f32; 4];
 
     fn record(self, p: &Particles, i: usize) -> Record {
@@ -314,7 +336,8 @@ impl RowPass<7, 6> for Accelerations<'_> {
     /// Σ f (P̂_i + P̂_j) d, and the noise filter's sum.
     #[inline(always)]
     fn pair<S: Simd>(self, simd: S, i: &[S::f32s; 7], j: &[S::f32s; 7], sums: &mut [S::f32s; 6]) {
-        let (d, _, f) = slope(simd, [i[0], i[1], i[2]], [j[0], j[1], j[2]]);
+        let (d, r) = apart(simd, [i[0], i[1], i[2]], [j[0], j[1], j[2]]);
+        let f = self.kernel.slope(simd, r);
         let [px, py, pz, filter @ ..] = sums;
         let mut pressure = [*px, *py, *pz];
         add_scaled(simd, &mut pressure, simd.mul_f32s(f, simd.add_f32s(i[3], j[3])), d);
@@ -343,9 +366,9 @@ impl RowPass<7, 6> for Accelerations<'_> {
 }
 
 #[derive(Clone, Copy)]
-struct Packing<'a>(&'a Wcsph);
+struct Packing<'a, K>(&'a Wcsph, K);
 
-impl RowPass<3, 1> for Packing<'_> {
+impl<K: PairKernel> RowPass<3, 1> for Packing<'_, K> {
     type Row = [f32; 4];
 
     fn record(self, p: &Particles, i: usize) -> Record {
@@ -355,10 +378,7 @@ impl RowPass<3, 1> for Packing<'_> {
 
     #[inline(always)]
     fn pair<S: Simd>(self, simd: S, i: &[S::f32s; 3], j: &[S::f32s; 3], [sum]: &mut [S::f32s; 1]) {
-        let (_, r, f) = slope(simd, *i, *j);
-        let one = simd.splat_f32s(1.0);
-        let w = simd.mul_f32s(simd.sub_f32s(one, r), fma(simd, simd.splat_f32s(4.0), r, one));
-        *sum = fma(simd, f, w, *sum);
+        *sum = self.1.add_value(simd, apart(simd, *i, *j).1, *sum);
     }
 
     fn row(self, pass: &Pass<'_>, i: usize, [sum]: [f32; 1], _: &mut [BodyLoad]) -> [f32; 4] {

@@ -1,0 +1,68 @@
+//! The kernels of `wcsph` as the pair loops take them: in lanes, at distances in supports, without their constants.
+//!
+//! Types and no values, so that each loop is compiled for one of them and the choice costs nothing in it.
+
+use crate::lanes::fma;
+use pulp::Simd;
+
+/// A kernel in lanes.
+pub(crate) trait PairKernel: Copy + Sync {
+    /// −(dW/dr)/r over [`Kernel::gradient_scale`](crate::Kernel::gradient_scale) at distances `r`; 0 from 1 on.
+    fn slope<S: Simd>(self, simd: S, r: S::f32s) -> S::f32s;
+
+    /// W/W(0) at distances `r`, added to `sum`.
+    fn add_value<S: Simd>(self, simd: S, r: S::f32s, sum: S::f32s) -> S::f32s;
+}
+
+/// The larger of a − b and 0.
+#[inline(always)]
+fn above<S: Simd>(simd: S, a: S::f32s, b: S::f32s) -> S::f32s {
+    simd.max_f32s(simd.sub_f32s(a, b), simd.splat_f32s(0.0))
+}
+
+/// a³.
+#[inline(always)]
+fn cube<S: Simd>(simd: S, a: S::f32s) -> S::f32s {
+    simd.mul_f32s(simd.mul_f32s(a, a), a)
+}
+
+/// Wendland C2: (1 − r)³ and (1 − r)⁴ (1 + 4r).
+#[derive(Clone, Copy)]
+pub(crate) struct Wendland;
+
+impl PairKernel for Wendland {
+    #[inline(always)]
+    fn slope<S: Simd>(self, simd: S, r: S::f32s) -> S::f32s {
+        cube(simd, above(simd, simd.splat_f32s(1.0), r))
+    }
+
+    #[inline(always)]
+    fn add_value<S: Simd>(self, simd: S, r: S::f32s, sum: S::f32s) -> S::f32s {
+        let one = simd.splat_f32s(1.0);
+        let w = simd.mul_f32s(simd.sub_f32s(one, r), fma(simd, simd.splat_f32s(4.0), r, one));
+        fma(simd, self.slope(simd, r), w, sum)
+    }
+}
+
+/// The cubic spline: 2 − 3r + (2r − 1)²/r and 2 (1 − r)³ − 8 (½ − r)³, where brackets below 0 are 0.
+#[derive(Clone, Copy)]
+pub(crate) struct Cubic;
+
+impl PairKernel for Cubic {
+    #[inline(always)]
+    fn slope<S: Simd>(self, simd: S, r: S::f32s) -> S::f32s {
+        let (one, half) = (simd.splat_f32s(1.0), simd.splat_f32s(0.5));
+        let r = simd.min_f32s(r, one);
+        let bend = above(simd, simd.add_f32s(r, r), one);
+        let bend = simd.div_f32s(simd.mul_f32s(bend, bend), simd.max_f32s(r, half));
+        simd.add_f32s(fma(simd, simd.splat_f32s(-3.0), r, simd.splat_f32s(2.0)), bend)
+    }
+
+    #[inline(always)]
+    fn add_value<S: Simd>(self, simd: S, r: S::f32s, sum: S::f32s) -> S::f32s {
+        let outer = cube(simd, above(simd, simd.splat_f32s(1.0), r));
+        let inner = cube(simd, above(simd, simd.splat_f32s(0.5), r));
+        let sum = fma(simd, simd.splat_f32s(2.0), outer, sum);
+        fma(simd, simd.splat_f32s(-8.0), inner, sum)
+    }
+}
