@@ -331,7 +331,7 @@ impl Fuzz {
                 (api.scene_add_source)(scene, &config, index)
             }
             11 => {
-                let (radius, shape) = (self.number(), self.random.below(4) as u32);
+                let (radius, shape) = (self.number(), self.random.below(8) as u32);
                 let config = ToolConfig { radius, shape, name: self.value(), ..made(api.tool_config_init) };
                 (api.scene_add_tool)(scene, &config, index)
             }

@@ -120,7 +120,9 @@ fn every_part_can_be_added_and_the_session_has_it() {
     let read = parse(&text, "parts").unwrap();
     assert_eq!((read.sinks.len(), read.pools.len(), read.ground), (2, 1, Some(-0.1)), "{text}");
     assert_eq!(read.changes[0].settings.len(), 2);
-    assert!(read.container.is_some() && read.obstacles[0].radius == 0.04 && read.fluid.gravity.y == -1.6);
+    assert!(
+        read.container.is_some() && read.obstacles[0].form.radius == 0.04 && read.fluid.gravity.y == -1.6
+    );
     let session = session_of(&api, scene);
     let (mut tools, mut obstacles) = (0, 0);
     assert_eq!((api.session_tool_count)(session, &mut tools), code::OK);
@@ -172,7 +174,11 @@ fn what_cannot_be_is_refused_with_the_reason_and_the_scene_stays() {
     refused(&api, source(|s| s.kind = 1), code::STRUCT, &[]);
     refused(&api, source(|s| s.size = 111), code::STRUCT, &[]);
     refused(&api, source(|s| s.name = c"\xff".as_ptr()), code::TEXT, &[]);
-    refused(&api, obstacle(|o| o.shape = 3), code::UNSUPPORTED, &["shape = 3", "HAPFLOW_SHAPE_DISC"]);
+    refused(&api, obstacle(|o| o.shape = 7), code::UNSUPPORTED, &["shape = 7", "HAPFLOW_SHAPE_MESH"]);
+    refused(&api, obstacle(|o| o.extent[1] = f64::NAN), code::NOT_FINITE, &["extent"]);
+    refused(&api, obstacle(|o| o.length = 9.0), value, &["obstacle.0.length = 9", "0.001 to 1 m"]);
+    refused(&api, obstacle(|o| o.file = c"no.obj".as_ptr()), value, &["no.obj", "closed mesh"]);
+    refused(&api, tool(|t| t.file = c"no.txt".as_ptr()), value, &["no.txt", "closed mesh"]);
     refused(&api, obstacle(|o| o.radius = -1.0), value, &["obstacle.0.radius = -1", "0.001 to 0.5 m"]);
     refused(&api, obstacle(|o| o.thickness = f64::NAN), code::NOT_FINITE, &["thickness"]);
     refused(

@@ -80,7 +80,11 @@ HAPFLOW_API hapflow_result hapflow_scene_set_container(hapflow_scene scene, cons
 /* Shapes of obstacles and tools. */
 enum {
     HAPFLOW_SHAPE_SPHERE = 1, /* a ball */
-    HAPFLOW_SHAPE_DISC = 2, /* a flat round plate, its axis up */
+    HAPFLOW_SHAPE_DISC = 2, /* a flat round plate, its axis up, of `thickness` */
+    HAPFLOW_SHAPE_CYLINDER = 3, /* the same by its other name, of `length` */
+    HAPFLOW_SHAPE_CAPSULE = 4, /* a rod with round ends, its axis up; `length` lies between the middles of its ends */
+    HAPFLOW_SHAPE_BOX = 5, /* edges `extent` along the axes */
+    HAPFLOW_SHAPE_MESH = 6, /* what the closed mesh of `file` holds, about the centre of its volume */
 };
 
 #define HAPFLOW_KIND_SOURCE_CONFIG 3u
@@ -123,12 +127,17 @@ typedef struct hapflow_obstacle_config {
     const char* name; /* by which settings address it; null: its number */
     uint32_t shape; /* HAPFLOW_SHAPE_... */
     uint32_t reserved; /* 0 */
-    double radius; /* m */
+    double radius; /* of all but a box and a mesh, m */
     double thickness; /* of a disc, m */
     double position[3]; /* until the host moves it, m */
+    double length; /* of a cylinder or a capsule, m */
+    double extent[3]; /* edges of a box, m */
+    double scale; /* metres a unit of `file` */
+    const char* file; /* of a mesh, Wavefront OBJ or STL; null: none */
+    const void* mesh; /* null */
 } hapflow_obstacle_config;
 #if UINTPTR_MAX > 0xffffffffu
-HAPFLOW_ASSERT_SIZE(hapflow_obstacle_config, 72);
+HAPFLOW_ASSERT_SIZE(hapflow_obstacle_config, 128);
 #endif
 
 /* Fills `config` with the defaults: a ball of 20 mm radius in the origin; `size` is sizeof *config. [any]
@@ -150,7 +159,7 @@ typedef struct hapflow_tool_config {
     const char* name; /* by which settings address it; null: its number */
     uint32_t shape; /* HAPFLOW_SHAPE_... */
     uint32_t reserved; /* 0 */
-    double radius; /* m */
+    double radius; /* of all but a box and a mesh, m */
     double thickness; /* of a disc, m */
     double mass; /* of its body in the fluid (coupling momentum), kg */
     double collision_response; /* share of the fluid's impulse that it takes (coupling momentum) */
@@ -158,9 +167,14 @@ typedef struct hapflow_tool_config {
     double force_scale; /* factor on the fluid's force */
     double solid_stiffness; /* how stiff solids feel, N/m; 0: they are not felt */
     double solid_damping; /* how much they slow it, N s/m */
+    double length; /* of a cylinder or a capsule, m */
+    double extent[3]; /* edges of a box, m */
+    double scale; /* metres a unit of `file` */
+    const char* file; /* of a mesh, Wavefront OBJ or STL; null: none */
+    const void* mesh; /* null */
 } hapflow_tool_config;
 #if UINTPTR_MAX > 0xffffffffu
-HAPFLOW_ASSERT_SIZE(hapflow_tool_config, 112);
+HAPFLOW_ASSERT_SIZE(hapflow_tool_config, 168);
 #endif
 
 /* Fills `config` with the defaults: a ball of 15 mm radius in the origin; `size` is sizeof *config. [any]

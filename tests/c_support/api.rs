@@ -209,6 +209,11 @@ pub struct ObstacleConfig {
     pub radius: f64,
     pub thickness: f64,
     pub position: [f64; 3],
+    pub length: f64,
+    pub extent: [f64; 3],
+    pub scale: f64,
+    pub file: *const c_char,
+    pub mesh: *const c_void,
 }
 
 #[repr(C)]
@@ -228,6 +233,11 @@ pub struct ToolConfig {
     pub force_scale: f64,
     pub solid_stiffness: f64,
     pub solid_damping: f64,
+    pub length: f64,
+    pub extent: [f64; 3],
+    pub scale: f64,
+    pub file: *const c_char,
+    pub mesh: *const c_void,
 }
 
 /// A corner of a box.

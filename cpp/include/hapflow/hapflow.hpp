@@ -273,8 +273,12 @@ struct Box {
 
 /// Shape of an obstacle or a tool.
 enum class Shape : std::uint32_t {
-    sphere = HAPFLOW_SHAPE_SPHERE, ///< A ball.
-    disc = HAPFLOW_SHAPE_DISC,     ///< A flat round plate, its axis up.
+    sphere = HAPFLOW_SHAPE_SPHERE,     ///< A ball.
+    disc = HAPFLOW_SHAPE_DISC,         ///< A flat round plate, its axis up, of `thickness`.
+    cylinder = HAPFLOW_SHAPE_CYLINDER, ///< The same by its other name, of `length`.
+    capsule = HAPFLOW_SHAPE_CAPSULE,   ///< A rod with round ends, its axis up; `length` between their middles.
+    box = HAPFLOW_SHAPE_BOX,           ///< Edges `extent` along the axes.
+    mesh = HAPFLOW_SHAPE_MESH,         ///< What the closed mesh of `file` holds, about the centre of its volume.
 };
 
 /// A jet. By default 20 mm straight down at 1 m/s from the origin.
@@ -296,6 +300,10 @@ struct Obstacle {
     double radius = 0.02;        ///< m.
     double thickness = 0.01;     ///< Of a disc, m.
     Vec3 position{};             ///< Until the host moves it, m.
+    double length = 0.04;        ///< Of a cylinder or a capsule, m.
+    Vec3 extent{{0.03, 0.03, 0.03}}; ///< Edges of a box, m.
+    std::string file;            ///< Of a mesh, Wavefront OBJ or STL.
+    double scale = 1;            ///< Metres a unit of that file.
 };
 
 /// A tool in a hand. By default a ball of 15 mm radius in the origin.
@@ -310,6 +318,10 @@ struct Tool {
     double force_scale = 1;          ///< Factor on the fluid's force.
     double solid_stiffness = 0;      ///< How stiff solids feel, N/m; 0: they are not felt.
     double solid_damping = 0;        ///< How much they slow it, N s/m.
+    double length = 0.04;            ///< Of a cylinder or a capsule, m.
+    Vec3 extent{{0.03, 0.03, 0.03}}; ///< Edges of a box, m.
+    std::string file;                ///< Of a mesh, Wavefront OBJ or STL.
+    double scale = 1;                ///< Metres a unit of that file.
 };
 
 /// A scene that is built by calls, each checked by itself. A session copies it. Owns the scene of the C interface, and
@@ -402,9 +414,7 @@ public:
     std::uint32_t add(const Obstacle& obstacle) {
         auto c = detail::made(hapflow_obstacle_config_init);
         c.name = detail::c_text_or_null(obstacle.name, "add obstacle");
-        c.shape = static_cast<std::uint32_t>(obstacle.shape);
-        c.radius = obstacle.radius;
-        c.thickness = obstacle.thickness;
+        form(obstacle, c, "add obstacle");
         detail::copy(obstacle.position, c.position);
         std::uint32_t index = 0;
         detail::check_main(hapflow_scene_add_obstacle(scene_, &c, &index), "add obstacle");
@@ -415,9 +425,7 @@ public:
     std::uint32_t add(const Tool& tool) {
         auto c = detail::made(hapflow_tool_config_init);
         c.name = detail::c_text_or_null(tool.name, "add tool");
-        c.shape = static_cast<std::uint32_t>(tool.shape);
-        c.radius = tool.radius;
-        c.thickness = tool.thickness;
+        form(tool, c, "add tool");
         c.mass = tool.mass;
         c.collision_response = tool.collision_response;
         detail::copy(tool.position, c.position);
@@ -452,6 +460,17 @@ public:
     }
 
 private:
+    /// The shape of an obstacle or a tool.
+    template <class Formed, class Config> static void form(const Formed& formed, Config& c, const char* doing) {
+        c.shape = static_cast<std::uint32_t>(formed.shape);
+        c.radius = formed.radius;
+        c.thickness = formed.thickness;
+        c.length = formed.length;
+        detail::copy(formed.extent, c.extent);
+        c.file = detail::c_text_or_null(formed.file, doing);
+        c.scale = formed.scale;
+    }
+
     friend class detail::Settable<Scene>;
 
     explicit Scene(std::nullptr_t) noexcept {}

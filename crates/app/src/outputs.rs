@@ -2,12 +2,12 @@
 
 use crate::draw::chart::{self, Chart, Series};
 use crate::draw::error::DrawError;
-use crate::draw::scene::{Box3, Nozzle, Scene3d, Tool, ToolShape as Drawn};
+use crate::draw::scene::{Box3, Nozzle, Scene3d, Tool};
 use crate::draw::{frame, image};
 use crate::summary::Summary;
 use glam::DVec3;
 use hapflow_engine::run::{Outcome, Picture};
-use hapflow_engine::{Row, Scene, SceneError, ToolShape, settings};
+use hapflow_engine::{Row, Scene, SceneError, settings};
 use std::path::Path;
 
 /// Size of a frame picture.
@@ -93,8 +93,8 @@ fn draw(scene: &Scene, picture: &Picture) -> image::Image {
     let obstacles: Vec<Tool> = scene
         .obstacles
         .iter()
-        .map(|o| still(drawn(o.shape, o.radius, o.thickness), o.position))
-        .chain(scene.more_tools.iter().map(|t| still(drawn(t.shape, t.radius, t.thickness), t.position)))
+        .map(|o| still(o.form.shape(), o.position))
+        .chain(scene.more_tools.iter().map(|t| still(t.form.shape(), t.position)))
         .collect();
     let caption =
         format!("{}   t = {:.2} s   {} particles", scene.name, picture.time_s, view.positions.len());
@@ -105,7 +105,7 @@ fn draw(scene: &Scene, picture: &Picture) -> image::Image {
             speeds: &speeds,
             spacing: scene.fluid.spacing as f32,
             tool: Tool {
-                shape: drawn(scene.tool.shape, scene.tool.radius, scene.tool.thickness),
+                shape: scene.tool.form.shape(),
                 position: tool.position.as_vec3().to_array(),
                 orientation: tool.orientation.as_quat().to_array(),
             },
@@ -122,24 +122,16 @@ fn draw(scene: &Scene, picture: &Picture) -> image::Image {
     )
 }
 
-fn drawn(shape: ToolShape, radius: f64, thickness: f64) -> Drawn {
-    let (radius, thickness) = (radius as f32, thickness as f32);
-    match shape {
-        ToolShape::Sphere => Drawn::Sphere { radius },
-        ToolShape::Disc => Drawn::Disc { radius, thickness },
-    }
-}
-
 /// What the camera must show: container, tool, pools and taps, not all of the bounds.
 fn framed(scene: &Scene) -> ([f32; 3], [f32; 3]) {
-    let (r, at) = (DVec3::splat(scene.tool.radius), scene.tool.position);
+    let (r, at) = (DVec3::splat(scene.tool.form.shape().bounding_radius()), scene.tool.position);
     let (mut low, mut high) = (at - 2.0 * r, at + 2.0 * r);
     let mut include = |a: DVec3, b: DVec3| (low, high) = (low.min(a), high.max(b));
     if let Some(c) = scene.container {
         include(c.inner.min, c.inner.max);
     }
     for o in &scene.obstacles {
-        let reach = DVec3::splat(o.radius.max(0.5 * o.thickness));
+        let reach = DVec3::splat(o.form.shape().bounding_radius());
         include(o.position - reach, o.position + reach);
     }
     for pool in &scene.pools {

@@ -95,6 +95,10 @@ const _: () = {
 };
 pub const HAPFLOW_SHAPE_SPHERE: _bindgen_ty_2 = 1;
 pub const HAPFLOW_SHAPE_DISC: _bindgen_ty_2 = 2;
+pub const HAPFLOW_SHAPE_CYLINDER: _bindgen_ty_2 = 3;
+pub const HAPFLOW_SHAPE_CAPSULE: _bindgen_ty_2 = 4;
+pub const HAPFLOW_SHAPE_BOX: _bindgen_ty_2 = 5;
+pub const HAPFLOW_SHAPE_MESH: _bindgen_ty_2 = 6;
 pub type _bindgen_ty_2 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -170,13 +174,18 @@ pub struct hapflow_obstacle_config {
     pub radius: f64,
     pub thickness: f64,
     pub position: [f64; 3usize],
+    pub length: f64,
+    pub extent: [f64; 3usize],
+    pub scale: f64,
+    pub file: *const ::core::ffi::c_char,
+    pub mesh: *const ::core::ffi::c_void,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 #[cfg(target_pointer_width = "64")]
 const _: () = {
     [
         "Size of hapflow_obstacle_config",
-    ][::core::mem::size_of::<hapflow_obstacle_config>() - 72usize];
+    ][::core::mem::size_of::<hapflow_obstacle_config>() - 128usize];
     [
         "Alignment of hapflow_obstacle_config",
     ][::core::mem::align_of::<hapflow_obstacle_config>() - 8usize];
@@ -207,6 +216,21 @@ const _: () = {
     [
         "Offset of field: hapflow_obstacle_config::position",
     ][::core::mem::offset_of!(hapflow_obstacle_config, position) - 48usize];
+    [
+        "Offset of field: hapflow_obstacle_config::length",
+    ][::core::mem::offset_of!(hapflow_obstacle_config, length) - 72usize];
+    [
+        "Offset of field: hapflow_obstacle_config::extent",
+    ][::core::mem::offset_of!(hapflow_obstacle_config, extent) - 80usize];
+    [
+        "Offset of field: hapflow_obstacle_config::scale",
+    ][::core::mem::offset_of!(hapflow_obstacle_config, scale) - 104usize];
+    [
+        "Offset of field: hapflow_obstacle_config::file",
+    ][::core::mem::offset_of!(hapflow_obstacle_config, file) - 112usize];
+    [
+        "Offset of field: hapflow_obstacle_config::mesh",
+    ][::core::mem::offset_of!(hapflow_obstacle_config, mesh) - 120usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -225,13 +249,18 @@ pub struct hapflow_tool_config {
     pub force_scale: f64,
     pub solid_stiffness: f64,
     pub solid_damping: f64,
+    pub length: f64,
+    pub extent: [f64; 3usize],
+    pub scale: f64,
+    pub file: *const ::core::ffi::c_char,
+    pub mesh: *const ::core::ffi::c_void,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 #[cfg(target_pointer_width = "64")]
 const _: () = {
     [
         "Size of hapflow_tool_config",
-    ][::core::mem::size_of::<hapflow_tool_config>() - 112usize];
+    ][::core::mem::size_of::<hapflow_tool_config>() - 168usize];
     [
         "Alignment of hapflow_tool_config",
     ][::core::mem::align_of::<hapflow_tool_config>() - 8usize];
@@ -277,6 +306,21 @@ const _: () = {
     [
         "Offset of field: hapflow_tool_config::solid_damping",
     ][::core::mem::offset_of!(hapflow_tool_config, solid_damping) - 104usize];
+    [
+        "Offset of field: hapflow_tool_config::length",
+    ][::core::mem::offset_of!(hapflow_tool_config, length) - 112usize];
+    [
+        "Offset of field: hapflow_tool_config::extent",
+    ][::core::mem::offset_of!(hapflow_tool_config, extent) - 120usize];
+    [
+        "Offset of field: hapflow_tool_config::scale",
+    ][::core::mem::offset_of!(hapflow_tool_config, scale) - 144usize];
+    [
+        "Offset of field: hapflow_tool_config::file",
+    ][::core::mem::offset_of!(hapflow_tool_config, file) - 152usize];
+    [
+        "Offset of field: hapflow_tool_config::mesh",
+    ][::core::mem::offset_of!(hapflow_tool_config, mesh) - 160usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]

@@ -6,10 +6,10 @@ use crate::config::check_head;
 use crate::contract::as_in_header;
 use crate::fence::fence;
 use crate::generated as c;
-use crate::part::{Part, name, shape, unreserved};
+use crate::part::{Lengths, Part, form, name, null, unreserved};
 use crate::session::finite;
 use glam::DVec3;
-use hapflow_engine::Obstacle;
+use hapflow_engine::{Form, Obstacle};
 use std::ffi::c_void;
 
 /// `hapflow_obstacle_config`.
@@ -25,11 +25,30 @@ pub struct ObstacleConfig {
     radius: f64,
     thickness: f64,
     position: [f64; 3],
+    length: f64,
+    extent: [f64; 3],
+    scale: f64,
+    file: Text,
+    mesh: *const c_void,
 }
 
 as_in_header!(
-    ObstacleConfig =
-        hapflow_obstacle_config { kind, size, next, name, shape, reserved, radius, thickness, position }
+    ObstacleConfig = hapflow_obstacle_config {
+        kind,
+        size,
+        next,
+        name,
+        shape,
+        reserved,
+        radius,
+        thickness,
+        position,
+        length,
+        extent,
+        scale,
+        file,
+        mesh,
+    }
 );
 
 // SAFETY: repr(C), no padding with pointers of 4 or 8 bytes; every field takes any bits.
@@ -51,20 +70,32 @@ impl Part for ObstacleConfig {
         radius: 0.02,
         thickness: 0.01,
         position: [0.0; 3],
+        length: 0.04,
+        extent: [0.03; 3],
+        scale: 1.0,
+        file: Text::NULL,
+        mesh: std::ptr::null(),
     };
 
     fn thing(&self) -> Result<Obstacle, Failure> {
         check_head(self.kind, c::HAPFLOW_KIND_OBSTACLE_CONFIG, self.next)?;
         unreserved(self.reserved)?;
-        finite("radius, thickness", &[self.radius, self.thickness])?;
+        null(self.mesh)?;
         finite("position", &self.position)?;
-        Ok(Obstacle {
-            name: name(self.name)?,
-            shape: shape(self.shape)?,
+        Ok(Obstacle { name: name(self.name)?, form: self.form()?, position: DVec3::from(self.position) })
+    }
+}
+
+impl ObstacleConfig {
+    fn form(&self) -> Result<Form, Failure> {
+        let lengths = Lengths {
             radius: self.radius,
             thickness: self.thickness,
-            position: DVec3::from(self.position),
-        })
+            length: self.length,
+            extent: self.extent,
+            scale: self.scale,
+        };
+        form(self.shape, &lengths, self.file)
     }
 }
 

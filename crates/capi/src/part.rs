@@ -3,7 +3,10 @@
 use crate::caller::{Record, Text};
 use crate::code::{Code, Failure};
 use crate::generated as c;
-use hapflow_engine::ToolShape;
+use crate::session::finite;
+use glam::DVec3;
+use hapflow_engine::{Form, FormKind};
+use std::ffi::c_void;
 
 /// A configuration of something that a scene has any number of.
 pub trait Part: Record {
@@ -22,12 +25,41 @@ pub fn name(text: Text) -> Result<String, Code> {
     if text.is_null() { Ok(String::new()) } else { Ok(text.read()?.into()) }
 }
 
-pub fn shape(number: u32) -> Result<ToolShape, Failure> {
-    match number {
-        c::HAPFLOW_SHAPE_SPHERE => Ok(ToolShape::Sphere),
-        c::HAPFLOW_SHAPE_DISC => Ok(ToolShape::Disc),
+/// The lengths of a shape.
+pub struct Lengths {
+    pub radius: f64,
+    pub thickness: f64,
+    pub length: f64,
+    pub extent: [f64; 3],
+    pub scale: f64,
+}
+
+/// The shape of this number; its mesh is read here.
+pub fn form(shape: u32, lengths: &Lengths, file: Text) -> Result<Form, Failure> {
+    let &Lengths { radius, thickness, length, extent, scale } = lengths;
+    finite("radius, thickness, length, scale", &[radius, thickness, length, scale])?;
+    finite("extent", &extent)?;
+    let mut form = Form::ball(radius);
+    (form.kind, form.thickness, form.length, form.size) =
+        (kind(shape)?, thickness, length, DVec3::from(extent));
+    form.set_scale(scale);
+    let file = name(file)?;
+    let refused =
+        |what| Failure { code: Code::ERROR_VALUE, text: format!("file = \"{file}\": must be {what}") };
+    form.set_file(&file).map_err(refused)?;
+    Ok(form)
+}
+
+fn kind(shape: u32) -> Result<FormKind, Failure> {
+    match shape {
+        c::HAPFLOW_SHAPE_SPHERE => Ok(FormKind::Sphere),
+        c::HAPFLOW_SHAPE_DISC => Ok(FormKind::Disc),
+        c::HAPFLOW_SHAPE_CYLINDER => Ok(FormKind::Cylinder),
+        c::HAPFLOW_SHAPE_CAPSULE => Ok(FormKind::Capsule),
+        c::HAPFLOW_SHAPE_BOX => Ok(FormKind::Box),
+        c::HAPFLOW_SHAPE_MESH => Ok(FormKind::Mesh),
         other => {
-            let text = format!("shape = {other}: must be HAPFLOW_SHAPE_SPHERE or HAPFLOW_SHAPE_DISC");
+            let text = format!("shape = {other}: must be HAPFLOW_SHAPE_SPHERE (1) to HAPFLOW_SHAPE_MESH (6)");
             Err(Failure { code: Code::ERROR_UNSUPPORTED, text })
         }
     }
@@ -47,6 +79,10 @@ pub fn flag(field: &str, number: u32) -> Result<bool, Failure> {
 
 pub fn unreserved(number: u32) -> Result<(), Code> {
     if number == 0 { Ok(()) } else { Err(Code::ERROR_UNSUPPORTED) }
+}
+
+pub fn null(pointer: *const c_void) -> Result<(), Code> {
+    if pointer.is_null() { Ok(()) } else { Err(Code::ERROR_UNSUPPORTED) }
 }
 
 #[cfg(test)]

@@ -6,10 +6,10 @@ use crate::config::check_head;
 use crate::contract::as_in_header;
 use crate::fence::fence;
 use crate::generated as c;
-use crate::part::{Part, name, shape, unreserved};
+use crate::part::{Lengths, Part, form, name, null, unreserved};
 use crate::session::finite;
 use glam::DVec3;
-use hapflow_engine::ToolSettings;
+use hapflow_engine::{Form, ToolSettings};
 use hapflow_haptics::SolidFeel;
 use std::ffi::c_void;
 
@@ -31,6 +31,11 @@ pub struct ToolConfig {
     force_scale: f64,
     solid_stiffness: f64,
     solid_damping: f64,
+    length: f64,
+    extent: [f64; 3],
+    scale: f64,
+    file: Text,
+    mesh: *const c_void,
 }
 
 as_in_header!(
@@ -49,6 +54,11 @@ as_in_header!(
         force_scale,
         solid_stiffness,
         solid_damping,
+        length,
+        extent,
+        scale,
+        file,
+        mesh,
     }
 );
 
@@ -76,20 +86,24 @@ impl Part for ToolConfig {
         force_scale: 1.0,
         solid_stiffness: 0.0,
         solid_damping: 0.0,
+        length: 0.04,
+        extent: [0.03; 3],
+        scale: 1.0,
+        file: Text::NULL,
+        mesh: std::ptr::null(),
     };
 
     fn thing(&self) -> Result<ToolSettings, Failure> {
         check_head(self.kind, c::HAPFLOW_KIND_TOOL_CONFIG, self.next)?;
         unreserved(self.reserved)?;
-        finite("radius, thickness, mass", &[self.radius, self.thickness, self.mass])?;
+        null(self.mesh)?;
+        finite("mass", &[self.mass])?;
         finite("position", &self.position)?;
         finite("collision_response, force_scale", &[self.collision_response, self.force_scale])?;
         finite("solid_stiffness, solid_damping", &[self.solid_stiffness, self.solid_damping])?;
         Ok(ToolSettings {
             name: name(self.name)?,
-            shape: shape(self.shape)?,
-            radius: self.radius,
-            thickness: self.thickness,
+            form: self.form()?,
             mass: self.mass,
             collision_response: self.collision_response,
             position: DVec3::from(self.position),
@@ -99,6 +113,19 @@ impl Part for ToolConfig {
                 damping_n_s_per_m: self.solid_damping,
             },
         })
+    }
+}
+
+impl ToolConfig {
+    fn form(&self) -> Result<Form, Failure> {
+        let lengths = Lengths {
+            radius: self.radius,
+            thickness: self.thickness,
+            length: self.length,
+            extent: self.extent,
+            scale: self.scale,
+        };
+        form(self.shape, &lengths, self.file)
     }
 }
 

@@ -18,6 +18,8 @@ mod control;
 mod error;
 mod fluid_unit;
 mod force_limit;
+mod form;
+mod mesh_file;
 mod obstacles;
 mod recorder;
 mod recording;
@@ -41,12 +43,13 @@ pub use builtin::{load, shipped};
 pub use control::Control;
 pub use error::SceneError;
 pub use fluid_unit::{FluidReport, FluidUnit};
+pub use form::{Form, FormKind};
 pub use obstacles::ObstacleMover;
 pub use recorder::Recorded;
 pub use recording::{Recording, Row, TickWriter};
 pub use scene::{
     BackendKind, Change, DeviceKind, MAX_OBSTACLES, MAX_TOOLS, MappingSettings, MotionOrigin, Obstacle,
-    RunSettings, Scene, ToolSettings, ToolShape,
+    RunSettings, Scene, ToolSettings,
 };
 pub use scene_device::open_device;
 pub use scene_file::{parse, write};

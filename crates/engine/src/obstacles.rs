@@ -88,7 +88,7 @@ impl Obstacles {
             (told.end_s, told.frame_s) = (end_s, frame_s);
             for ((to, path), body) in told.paths.iter_mut().zip(&self.paths).zip(bodies) {
                 let [from, end] = path.map(|s| Pose { position: s.position, orientation: s.orientation });
-                *to = SolidPath { shape: solid_shape(body.shape), from, to: end };
+                *to = SolidPath { shape: solid_shape(&body.shape), from, to: end };
             }
             writer.publish();
         }

@@ -1,12 +1,11 @@
 //! A scene: everything that a session is made of, as plain data.
 
 use crate::force_limit::ForceLimit;
+use crate::form::Form;
 use crate::{SceneError, Value, settings};
 use glam::DVec3;
 use hapflow_devices::{HandPreset, HandSettings, Segment};
-use hapflow_fluid::{
-    Aabb, BodyConfig, FluidConfig, FluidSettings, MIN_MASS_RATIO, OpenBox, Shape, Source, World,
-};
+use hapflow_fluid::{Aabb, BodyConfig, FluidConfig, FluidSettings, MIN_MASS_RATIO, OpenBox, Source, World};
 use hapflow_haptics::{CouplingKind, FilterSpec, GateSettings, Mapping, Rim, SolidFeel, Workspace};
 
 /// Who computes the fluid.
@@ -59,15 +58,6 @@ pub struct RunSettings {
     pub motion_origin: MotionOrigin,
 }
 
-/// Shape of a tool.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ToolShape {
-    /// A ball.
-    Sphere,
-    /// A flat plate.
-    Disc,
-}
-
 /// Most tools in a scene.
 pub const MAX_TOOLS: usize = 8;
 
@@ -77,11 +67,7 @@ pub struct ToolSettings {
     /// Name by which settings address it; the first tool needs none.
     pub name: String,
     /// Its shape.
-    pub shape: ToolShape,
-    /// Radius, m.
-    pub radius: f64,
-    /// Thickness of a disc, m.
-    pub thickness: f64,
+    pub form: Form,
     /// Mass of its body in the fluid (coupling `momentum`), kg.
     pub mass: f64,
     /// Collision response coefficient C_R (coupling `momentum`), 0..1.
@@ -103,11 +89,7 @@ pub struct Obstacle {
     /// Name by which settings address it.
     pub name: String,
     /// Its shape.
-    pub shape: ToolShape,
-    /// Radius, m.
-    pub radius: f64,
-    /// Thickness of a disc, m.
-    pub thickness: f64,
+    pub form: Form,
     /// Where it is, m, until the host moves it.
     pub position: DVec3,
 }
@@ -115,8 +97,7 @@ pub struct Obstacle {
 impl Default for Obstacle {
     /// A ball of 20 mm radius in the origin.
     fn default() -> Self {
-        let shape = ToolShape::Sphere;
-        Self { name: "0".into(), shape, radius: 0.02, thickness: 0.01, position: DVec3::ZERO }
+        Self { name: "0".into(), form: Form::ball(0.02), position: DVec3::ZERO }
     }
 }
 
@@ -125,9 +106,7 @@ impl Default for ToolSettings {
     fn default() -> Self {
         Self {
             name: "0".into(),
-            shape: ToolShape::Sphere,
-            radius: 0.015,
-            thickness: 0.01,
+            form: Form::ball(0.015),
             mass: 0.1,
             collision_response: 0.2,
             position: DVec3::ZERO,
@@ -313,6 +292,7 @@ impl Scene {
     /// # Errors
     /// The first thing that is wrong, with its field, value and range.
     pub fn check(&self) -> Result<(), SceneError> {
+        self.check_forms()?;
         self.fluid_config(1).check()?;
         self.check_names()?;
         self.check_tool_mass()?;
@@ -324,6 +304,20 @@ impl Scene {
             self.check_change(k, change)?;
         }
         Ok(())
+    }
+
+    /// A mesh comes from a file.
+    fn check_forms(&self) -> Result<(), SceneError> {
+        let tools = self.tools().map(|t| ("tool", &t.name, &t.form));
+        let mut forms = tools.chain(self.obstacles.iter().map(|o| ("obstacle", &o.name, &o.form)));
+        match forms.find(|(.., form)| !form.is_whole()) {
+            None => Ok(()),
+            Some((kind, name, _)) => Err(SceneError::BadValue {
+                path: format!("{kind}.{name}.file"),
+                value: "\"\"".into(),
+                expected: "a file, as its shape is \"mesh\"".into(),
+            }),
+        }
     }
 
     /// Settings address sources and obstacles by name.
@@ -353,7 +347,8 @@ impl Scene {
 
     /// A driven body that is too light would be thrown about.
     fn check_tool_mass(&self) -> Result<(), SceneError> {
-        let least = |tool: &ToolSettings| MIN_MASS_RATIO * self.fluid.rest_density * tool.shape().volume();
+        let least =
+            |tool: &ToolSettings| MIN_MASS_RATIO * self.fluid.rest_density * tool.form.shape().volume();
         let light = self.tools().find(|tool| tool.mass < least(tool));
         match light.filter(|_| self.run.coupling == CouplingKind::Momentum) {
             None => Ok(()),
@@ -377,33 +372,9 @@ impl Scene {
     }
 }
 
-impl ToolShape {
-    /// The shape of these sizes, m.
-    fn sized(self, radius: f64, thickness: f64) -> Shape {
-        match self {
-            Self::Sphere => Shape::Sphere { radius },
-            Self::Disc => Shape::Disc { radius, thickness },
-        }
-    }
-}
-
-impl ToolSettings {
-    /// The shape, with its sizes.
-    pub fn shape(&self) -> Shape {
-        self.shape.sized(self.radius, self.thickness)
-    }
-}
-
-impl Obstacle {
-    /// The shape, with its sizes.
-    pub fn shape(&self) -> Shape {
-        self.shape.sized(self.radius, self.thickness)
-    }
-}
-
 fn tool_body(tool: &ToolSettings) -> BodyConfig {
     BodyConfig {
-        shape: tool.shape(),
+        shape: tool.form.shape(),
         mass: tool.mass,
         collision_response: tool.collision_response,
         position: tool.position,
@@ -412,7 +383,7 @@ fn tool_body(tool: &ToolSettings) -> BodyConfig {
 
 fn obstacle_body(obstacle: &Obstacle) -> BodyConfig {
     BodyConfig {
-        shape: obstacle.shape(),
+        shape: obstacle.form.shape(),
         // It is led: its mass plays no part.
         mass: 1.0,
         collision_response: 0.0,

@@ -7,6 +7,7 @@ use crate::{SceneError, Value};
 use glam::DVec3;
 use hapflow_devices::{HandPreset, HandSettings, Segment};
 use hapflow_fluid::{Aabb, OpenBox};
+use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -102,7 +103,8 @@ impl Reader<'_> {
                 fields.sort_by_key(|(path, _)| !settings::is_shorthand(path));
                 for (path, value) in fields {
                     let value_at = value.span().start;
-                    let result = settings::set(scene, &path, &self.value(value)?);
+                    let given = self.located(&path, self.value(value)?);
+                    let result = settings::set(scene, &path, &given);
                     result.map_err(|e| self.error_at(value_at, &e.to_string()))?;
                 }
             }
@@ -207,13 +209,24 @@ impl Reader<'_> {
         Ok(thing)
     }
 
+    /// A file that is named in a scene file lies beside that.
+    fn located(&self, path: &str, value: Value) -> Value {
+        let beside = Path::new(self.file).parent().unwrap_or(Path::new(""));
+        match value {
+            Value::Text(name) if path.ends_with(".file") && !name.is_empty() => {
+                Value::Text(beside.join(name).to_string_lossy().into_owned())
+            }
+            other => other,
+        }
+    }
+
     fn put<T: Named>(&self, thing: &mut T, field: &str, item: &Item<'_>) -> Result<(), SceneError> {
         let path = format!("{}.{field}", T::KIND);
         let Some(setting) = T::TABLE.iter().find(|s| s.path == field) else {
             let known: Vec<_> = T::TABLE.iter().map(|s| s.path).collect();
             return self.wrong(item, &format!("no setting \"{path}\"; there are {}", known.join(", ")));
         };
-        let value = self.value(item)?;
+        let value = self.located(&path, self.value(item)?);
         setting.put(thing, &path, &value, false).map_err(|e| self.error_at(item.span().start, &e.to_string()))
     }
 

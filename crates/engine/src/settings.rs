@@ -3,7 +3,8 @@
 //! Scene files, `--set`, `[[change]]`, the C ABI and the README's table all read it. Settings of a source are
 //! addressed by its name: `source.tap.speed`; those of an obstacle likewise.
 
-use crate::scene::{BackendKind, DeviceKind, MotionOrigin, Obstacle, Scene, ToolSettings, ToolShape};
+use crate::form::{Form, FormKind};
+use crate::scene::{BackendKind, DeviceKind, MotionOrigin, Obstacle, Scene, ToolSettings};
 use crate::{SceneError, Value};
 use hapflow_fluid::{InteractionMode, Kernel, Liquid, Solver, Source};
 use hapflow_haptics::{CouplingKind, FilterSpec};
@@ -70,7 +71,6 @@ impl Kind {
 }
 
 /// One setting of a `T`.
-#[derive(Clone, Copy)]
 pub struct Setting<T> {
     /// Path, or the last part of it for a source.
     pub path: &'static str,
@@ -85,6 +85,14 @@ pub struct Setting<T> {
     get: fn(&T) -> Value,
     set: fn(&mut T, &Value) -> Result<(), String>,
 }
+
+impl<T> Clone for Setting<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Setting<T> {}
 
 impl<T> std::fmt::Debug for Setting<T> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -203,7 +211,12 @@ const LIVE: bool = true;
 const FIXED: bool = false;
 
 /// Settings of a scene.
-pub const SETTINGS: &[Setting<Scene>] = &[
+pub const SETTINGS: &[Setting<Scene>] =
+    &joined::<_, SETTINGS_LENGTH>(&[RUN_AND_FLUID, &form_settings(FIRST_TOOL_FORM), OTHERS]);
+
+const SETTINGS_LENGTH: usize = RUN_AND_FLUID.len() + FORM.len() + OTHERS.len();
+
+const RUN_AND_FLUID: &[Setting<Scene>] = &[
     number!("run.duration", "s", 0.01..=3600.0, FIXED, run.duration, "Simulated time of a run."),
     number!(
         "run.fluid_hz",
@@ -407,9 +420,10 @@ pub const SETTINGS: &[Setting<Scene>] = &[
         fluid.two_way,
         "true: fluid and tool push each other; false: the tool pushes the fluid and feels nothing."
     ),
-    choice!("tool.shape", FIXED, tool.shape, ["sphere" => ToolShape::Sphere, "disc" => ToolShape::Disc], "Shape of the tool; a disc lies flat, its axis up."),
-    number!("tool.radius", "m", 1e-3..=0.5, LIVE, tool.radius, "Radius of the tool."),
-    number!("tool.thickness", "m", 1e-3..=0.5, LIVE, tool.thickness, "Thickness of a disc."),
+];
+
+/// Of the first tool what is not its shape, and all the rest.
+const OTHERS: &[Setting<Scene>] = &[
     number!(
         "tool.mass",
         "kg",
@@ -631,11 +645,139 @@ fn set_filter(scene: &mut Scene, value: &Value) -> Result<(), String> {
     Ok(())
 }
 
+/// What has a shape.
+trait Formed {
+    fn form(&self) -> &Form;
+    fn form_mut(&mut self) -> &mut Form;
+}
+
+macro_rules! formed {
+    ($thing:ty, $($field:ident).+) => {
+        impl Formed for $thing {
+            fn form(&self) -> &Form {
+                &self.$($field).+
+            }
+
+            fn form_mut(&mut self) -> &mut Form {
+                &mut self.$($field).+
+            }
+        }
+    };
+}
+
+formed!(Scene, tool.form);
+formed!(ToolSettings, form);
+formed!(Obstacle, form);
+
+/// Paths of the settings of a shape, and of the first tool's.
+const FORM: [&str; 7] = ["shape", "radius", "thickness", "length", "size", "file", "scale"];
+const FIRST_TOOL_FORM: [&str; 7] =
+    ["tool.shape", "tool.radius", "tool.thickness", "tool.length", "tool.size", "tool.file", "tool.scale"];
+
+/// Settings of the shape of a `T`, at these paths.
+const fn form_settings<T: Formed>(paths: [&'static str; 7]) -> [Setting<T>; 7] {
+    macro_rules! length {
+        ($at:literal, $field:ident, $max:literal, $about:literal) => {
+            Setting {
+                path: paths[$at],
+                unit: "m",
+                kind: Kind::Number { min: 1e-3, max: $max },
+                live: LIVE,
+                about: $about,
+                get: |t: &T| Value::Number(t.form().$field),
+                set: |t: &mut T, v| {
+                    t.form_mut().$field = v.number();
+                    Ok(())
+                },
+            }
+        };
+    }
+    [
+        Setting {
+            path: paths[0],
+            unit: "",
+            kind: Kind::Choice(&["sphere", "disc", "cylinder", "capsule", "box", "mesh"]),
+            live: FIXED,
+            about: "Its shape. A disc lies flat, its axis up; it is a cylinder by another name, of a `thickness`.",
+            get: |t: &T| Value::Text(kind_word(t.form().kind).into()),
+            set: set_kind::<T>,
+        },
+        length!(1, radius, 0.5, "Radius of a sphere, disc, cylinder or capsule."),
+        length!(2, thickness, 0.5, "Thickness of a disc."),
+        length!(3, length, 1.0, "Length of a cylinder; of a capsule, between the middles of its round ends."),
+        Setting {
+            path: paths[4],
+            unit: "m",
+            kind: Kind::Vector { min: 1e-3, max: 1.0 },
+            live: LIVE,
+            about: "Edges of a box.",
+            get: |t: &T| Value::Vector(t.form().size),
+            set: |t: &mut T, v| {
+                t.form_mut().size = v.vector();
+                Ok(())
+            },
+        },
+        Setting {
+            path: paths[5],
+            unit: "",
+            kind: Kind::Text,
+            live: FIXED,
+            about: "Closed mesh, Wavefront OBJ or STL; where a scene file names it, beside that. Its centre of volume is the body's origin.",
+            get: |t: &T| Value::Text(t.form().file().into()),
+            set: |t: &mut T, v| t.form_mut().set_file(v.text()),
+        },
+        Setting {
+            path: paths[6],
+            unit: "m",
+            kind: Kind::Number { min: 1e-6, max: 1000.0 },
+            live: FIXED,
+            about: "Metres a unit of that file: 0.001 for one in millimetres.",
+            get: |t: &T| Value::Number(t.form().scale()),
+            set: |t: &mut T, v| {
+                t.form_mut().set_scale(v.number());
+                Ok(())
+            },
+        },
+    ]
+}
+
+const fn kind_word(kind: FormKind) -> &'static str {
+    match kind {
+        FormKind::Sphere => "sphere",
+        FormKind::Disc => "disc",
+        FormKind::Cylinder => "cylinder",
+        FormKind::Capsule => "capsule",
+        FormKind::Box => "box",
+        FormKind::Mesh => "mesh",
+    }
+}
+
+fn set_kind<T: Formed>(thing: &mut T, value: &Value) -> Result<(), String> {
+    let known = FormKind::ALL.into_iter().find(|kind| kind_word(*kind) == value.text());
+    thing.form_mut().kind = known.ok_or_else(|| value.text().to_string())?;
+    Ok(())
+}
+
+/// The settings of several tables in one.
+const fn joined<T, const N: usize>(tables: &[&[Setting<T>]]) -> [Setting<T>; N] {
+    let mut all = [tables[0][0]; N];
+    let (mut table, mut at) = (0, 0);
+    while table < tables.len() {
+        let mut k = 0;
+        while k < tables[table].len() {
+            all[at] = tables[table][k];
+            (at, k) = (at + 1, k + 1);
+        }
+        table += 1;
+    }
+    all
+}
+
 /// Settings of any tool but the first, addressed as `tool.NAME.…`.
-pub const TOOL_SETTINGS: &[Setting<ToolSettings>] = &[
-    choice!("shape", FIXED, shape, ["sphere" => ToolShape::Sphere, "disc" => ToolShape::Disc], "Shape of the tool; a disc lies flat, its axis up."),
-    number!("radius", "m", 1e-3..=0.5, LIVE, radius, "Radius of the tool."),
-    number!("thickness", "m", 1e-3..=0.5, LIVE, thickness, "Thickness of a disc."),
+pub const TOOL_SETTINGS: &[Setting<ToolSettings>] =
+    &joined::<_, { FORM.len() + TOOL_OTHERS.len() }>(&[&form_settings(FORM), TOOL_OTHERS]);
+
+const TOOL_OTHERS: &[Setting<ToolSettings>] = &[
     number!(
         "mass",
         "kg",
@@ -680,12 +822,11 @@ pub const TOOL_SETTINGS: &[Setting<ToolSettings>] = &[
 ];
 
 /// Settings of an obstacle, addressed as `obstacle.NAME.…`.
-pub const OBSTACLE_SETTINGS: &[Setting<Obstacle>] = &[
-    choice!("shape", FIXED, shape, ["sphere" => ToolShape::Sphere, "disc" => ToolShape::Disc], "Its shape; a disc lies flat, its axis up."),
-    number!("radius", "m", 1e-3..=0.5, LIVE, radius, "Its radius."),
-    number!("thickness", "m", 1e-3..=0.5, LIVE, thickness, "Thickness of a disc."),
-    vector!("position", "m", -10.0..=10.0, LIVE, position, "Where it is, until the host moves it."),
-];
+pub const OBSTACLE_SETTINGS: &[Setting<Obstacle>] =
+    &joined::<_, { FORM.len() + OBSTACLE_OTHERS.len() }>(&[&form_settings(FORM), OBSTACLE_OTHERS]);
+
+const OBSTACLE_OTHERS: &[Setting<Obstacle>] =
+    &[vector!("position", "m", -10.0..=10.0, LIVE, position, "Where it is, until the host moves it.")];
 
 /// Sets `path` before a session starts.
 ///

@@ -132,5 +132,9 @@ impl Shared {
 
 /// What the servo of `tool` has of the scene's settings.
 pub(crate) fn servo_settings(scene: &Scene, tool: &ToolSettings) -> ServoSettings {
-    ServoSettings { gate: scene.gate, force_scale: tool.force_scale, reach: tool.shape().bounding_radius() }
+    ServoSettings {
+        gate: scene.gate,
+        force_scale: tool.force_scale,
+        reach: tool.form.shape().bounding_radius(),
+    }
 }

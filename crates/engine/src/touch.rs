@@ -38,20 +38,21 @@ impl SolidPaths {
     fn at_rest(scene: &Scene) -> Self {
         let mut paths = [SolidPath::resting(SolidShape::HalfSpace, DVec3::ZERO); MAX_OBSTACLES];
         for (path, obstacle) in paths.iter_mut().zip(&scene.obstacles) {
-            *path = SolidPath::resting(solid_shape(obstacle.shape()), obstacle.position);
+            *path = SolidPath::resting(solid_shape(&obstacle.form.shape()), obstacle.position);
         }
         Self { end_s: 0.0, frame_s: 1.0 / scene.run.fluid_hz, paths }
     }
 }
 
 /// The fluid's shape, as a solid.
-pub(crate) fn solid_shape(shape: Shape) -> SolidShape {
-    match shape {
+pub(crate) fn solid_shape(shape: &Shape) -> SolidShape {
+    match *shape {
         Shape::Sphere { radius } => SolidShape::Sphere { radius },
         Shape::Disc { radius, thickness } => SolidShape::Disc { radius, thickness },
         Shape::Box { size } => SolidShape::Box { half: 0.5 * size },
-        // Scenes make no others yet; what has an end is felt as the ball round it.
-        Shape::Capsule { .. } | Shape::Slab { .. } | Shape::Drum { .. } => {
+        Shape::Capsule { radius, length } => SolidShape::Capsule { radius, length },
+        // The proxy takes solids for convex: a mesh is felt as the ball round it. Scenes make no others.
+        Shape::Mesh(_) | Shape::Slab { .. } | Shape::Drum { .. } => {
             SolidShape::Sphere { radius: shape.bounding_radius() }
         }
     }

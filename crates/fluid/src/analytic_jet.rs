@@ -70,7 +70,7 @@ impl AnalyticJet {
     /// What [`FluidConfig::check`] refuses, and pools, which it cannot hold.
     pub fn new(config: &FluidConfig) -> Result<Self, FluidError> {
         Self::refuse(config)?;
-        let bodies = config.world.bodies.iter().map(|&b| Body::new(b)).collect();
+        let bodies = config.world.bodies.iter().cloned().map(Body::new).collect();
         Ok(Self { config: config.clone(), bodies, time: 0.0, output: FrameOutput::default(), ready: false })
     }
 
@@ -111,7 +111,7 @@ impl FluidBackend for AnalyticJet {
         Self::refuse(config)?;
         self.config = config.clone();
         for (body, config) in self.bodies.iter_mut().zip(&config.world.bodies) {
-            body.config = *config;
+            body.config = config.clone();
         }
         Ok(())
     }

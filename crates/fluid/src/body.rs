@@ -2,6 +2,7 @@
 
 use crate::periodic::Periodic;
 use crate::shape::Frame;
+use crate::volume_map::VolumeMap;
 use crate::wall::WallTable;
 use crate::{BodyConfig, Kernel, Shape};
 use glam::{DQuat, DVec3, Vec3};
@@ -131,8 +132,8 @@ pub(crate) struct Medium {
 impl Body {
     pub fn new(config: BodyConfig) -> Self {
         Self {
-            config,
             state: BodySample::at(config.position),
+            config,
             acceleration: DVec3::ZERO,
             drive: BodyDrive::Led,
         }
@@ -197,7 +198,7 @@ impl Body {
     /// with it. So that mass is taken to the body's side, with the last acceleration on the other, and a body
     /// lighter than the fluid is stable too.
     fn fall(&mut self, load: &BodyLoad, medium: &Medium, dt: f64) {
-        let (mass, shape) = (self.config.mass, self.config.shape);
+        let (mass, shape) = (self.config.mass, &self.config.shape);
         let carried = if shape.volume().is_finite() { medium.density * shape.volume() } else { 0.0 };
         let pull = load.force() + mass * medium.gravity + carried * self.acceleration;
         let acceleration = pull / (mass + carried);
@@ -205,7 +206,7 @@ impl Body {
         let (inertia, inverse) = (shape.inertia(mass), s.orientation.inverse());
         let (spin, torque) = (inverse * s.angular_velocity, inverse * load.torque);
         // Euler's equations, in the body's frame.
-        let turning = s.orientation * ((torque - spin.cross(inertia * spin)) / inertia);
+        let turning = s.orientation * (inertia.inverse() * (torque - spin.cross(inertia * spin)));
         if acceleration.is_finite() && turning.is_finite() {
             self.acceleration = acceleration;
             s.velocity += acceleration * dt;
@@ -247,9 +248,9 @@ fn sample_path(path: &[BodySample], share: f64) -> Option<BodySample> {
 }
 
 /// A body frozen for one sub-step, in f32, as the particle loops meet it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct BodyNow {
-    frame: Frame,
+    pub frame: Frame,
     shape: Shape,
     velocity: Vec3,
     angular_velocity: Vec3,
@@ -277,7 +278,7 @@ impl BodyNow {
     pub fn new(body: &Body, margin: f64, periodic: Periodic) -> Self {
         Self {
             frame: Frame::new(body.state.position, body.state.orientation),
-            shape: body.config.shape,
+            shape: body.config.shape.clone(),
             velocity: body.state.velocity.as_vec3(),
             angular_velocity: body.state.angular_velocity.as_vec3(),
             acceleration: body.acceleration.as_vec3(),
@@ -306,17 +307,54 @@ impl BodyNow {
     }
 }
 
-/// One wall table a body, made when the kernel or the shape changes.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct BodyTables(Vec<WallTable>);
+/// The kernel integrals round a body.
+#[derive(Clone, Debug)]
+pub(crate) enum BodyTable {
+    /// Where its distance tells all.
+    Distance(WallTable),
+    /// Where it has edges.
+    Place(VolumeMap),
+}
+
+/// One table a body, made when the kernel or its shape changes.
+#[derive(Clone, Debug)]
+pub(crate) struct BodyTables {
+    kernel: (Kernel, f64),
+    tables: Vec<(Shape, BodyTable)>,
+}
 
 impl BodyTables {
     pub fn new(bodies: &[BodyConfig], kernel: Kernel, support: f64) -> Self {
-        Self(bodies.iter().map(|b| WallTable::for_shape(&b.shape, kernel, support)).collect())
+        let mut tables = Self { kernel: (kernel, support), tables: Vec::new() };
+        tables.update(bodies, kernel, support);
+        tables
     }
 
-    pub fn get(&self, index: usize) -> &WallTable {
-        &self.0[index]
+    /// A table costs milliseconds: a body that only moves or weighs otherwise keeps its own.
+    pub fn update(&mut self, bodies: &[BodyConfig], kernel: Kernel, support: f64) {
+        let fits = self.kernel == (kernel, support);
+        let mut old = std::mem::take(&mut self.tables).into_iter().map(|known| fits.then_some(known));
+        self.kernel = (kernel, support);
+        self.tables = bodies
+            .iter()
+            .map(|body| match old.next().flatten() {
+                Some(known) if known.0 == body.shape => known,
+                _ => (body.shape.clone(), BodyTable::new(&body.shape, kernel, support)),
+            })
+            .collect();
+    }
+
+    pub fn get(&self, index: usize) -> &BodyTable {
+        &self.tables[index].1
+    }
+}
+
+impl BodyTable {
+    fn new(shape: &Shape, kernel: Kernel, support: f64) -> Self {
+        match VolumeMap::for_shape(shape, kernel, support) {
+            Some(map) => Self::Place(map),
+            None => Self::Distance(WallTable::for_shape(shape, kernel, support)),
+        }
     }
 }
 
@@ -343,7 +381,8 @@ mod tests {
         let medium = Medium { density: 1000.0, gravity: DVec3::new(0.0, -9.81, 0.0) };
         let displaced = medium.density * shape.volume();
         for ratio in [0.05, 0.5, 1.0, 5.0] {
-            let config = BodyConfig { shape, mass: ratio * displaced, ..BodyConfig::default() };
+            let config =
+                BodyConfig { shape: shape.clone(), mass: ratio * displaced, ..BodyConfig::default() };
             let mut body = Body::new(config);
             let motion = BodyMotion { drive: BodyDrive::Free, path: &[] };
             body.begin_frame(&motion, 0.01);
@@ -362,7 +401,7 @@ mod tests {
     #[test]
     fn a_free_body_keeps_its_spin_momentum() {
         let shape = Shape::Box { size: DVec3::new(0.1, 0.2, 0.3) };
-        let mut body = Body::new(BodyConfig { shape, ..BodyConfig::default() });
+        let mut body = Body::new(BodyConfig { shape: shape.clone(), ..BodyConfig::default() });
         body.state.angular_velocity = DVec3::new(3.0, 0.1, 0.2);
         let medium = Medium { density: 0.0, gravity: DVec3::ZERO };
         let motion = BodyMotion { drive: BodyDrive::Free, path: &[] };

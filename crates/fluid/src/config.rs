@@ -214,7 +214,7 @@ impl Source {
 }
 
 /// A body that stands in the fluid and moves as it is told.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct BodyConfig {
     /// Its shape.
     pub shape: Shape,

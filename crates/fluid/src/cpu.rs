@@ -50,7 +50,7 @@ impl CpuBackend {
             .thread_name(|k| format!("hapflow-fluid-{k}"))
             .build()
             .map_err(|e| FluidError::Threads(e.to_string()))?;
-        let mut fluid = Fluid::new(config);
+        let mut fluid = pool.install(|| Fluid::new(config));
         fluid.particles.extend(&newborn);
         Ok(Self {
             config: config.clone(),
@@ -81,7 +81,8 @@ impl FluidBackend for CpuBackend {
 
     fn configure(&mut self, config: &FluidConfig) -> Result<(), FluidError> {
         config.check()?;
-        self.fluid.adapt(&self.config, config);
+        let Self { pool, fluid, config: old, .. } = self;
+        pool.install(|| fluid.adapt(old, config));
         self.config = config.clone();
         Ok(())
     }
@@ -162,7 +163,7 @@ impl Fluid {
         let support = config.settings.support_length();
         Self {
             particles: Particles::new(),
-            bodies: config.world.bodies.iter().map(|&b| Body::new(b)).collect(),
+            bodies: config.world.bodies.iter().cloned().map(Body::new).collect(),
             emitters: vec![Emitter::default(); config.world.sources.len()],
             method: Method::new(config),
             walls: Walls::new(&config.world, config.settings.spacing),
@@ -192,17 +193,15 @@ impl Fluid {
     fn adapt(&mut self, old: &FluidConfig, new: &FluidConfig) {
         self.method = Method::new(new);
         for (body, config) in self.bodies.iter_mut().zip(&new.world.bodies) {
-            body.config = *config;
+            body.config = config.clone();
         }
         self.emitters.resize(new.world.sources.len(), Emitter::default());
         let kernels = |config: &FluidConfig| (config.settings.kernel, config.settings.support_length());
         let (kernel, support) = kernels(new);
-        let shapes = |config: &FluidConfig| config.world.bodies.iter().map(|b| b.shape).collect::<Vec<_>>();
-        // A table costs milliseconds: a body that only moves or weighs otherwise keeps its own.
-        if kernels(old) != kernels(new) || shapes(old) != shapes(new) {
+        if kernels(old) != kernels(new) {
             self.plane = WallTable::plane(kernel, support);
-            self.tables = BodyTables::new(&new.world.bodies, kernel, support);
         }
+        self.tables.update(&new.world.bodies, kernel, support);
         self.walls = Walls::new(&new.world, new.settings.spacing);
         self.periodic = Periodic::new(&new.world);
         let off = |config: &FluidConfig| config.settings.mode == InteractionMode::None;

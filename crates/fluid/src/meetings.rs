@@ -47,7 +47,10 @@ impl List {
         self.all.clear();
         for (end, i) in self.ends.iter_mut().zip(chunk) {
             if !p.is_image(i) {
-                solids.visit(p.position(i), support, |m| self.all.push((m, solids.terms(&m))));
+                solids.visit(p.position(i), support, |mut m| {
+                    let terms = solids.terms(&mut m);
+                    self.all.push((m, terms));
+                });
             }
             *end = self.all.len() as u32;
         }

@@ -23,7 +23,7 @@ pub(crate) fn fill(config: &FluidConfig) -> Result<Vec<Newborn>, FluidError> {
     }
     let periodic = Periodic::new(&config.world);
     let bodies: Vec<_> =
-        config.world.bodies.iter().map(|&b| BodyNow::new(&Body::new(b), spacing, periodic)).collect();
+        config.world.bodies.iter().cloned().map(|b| BodyNow::new(&Body::new(b), spacing, periodic)).collect();
     let free = |p: Vec3| bodies.iter().all(|b| b.contact(p, 0.0).is_none());
     let mut random = Random::new(config.world.seed);
     let mut out = Vec::new();

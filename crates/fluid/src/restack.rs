@@ -106,7 +106,7 @@ mod tests {
         particles.extend(&[Newborn { position: Vec3::splat(0.005), ..Newborn::default() }; 100]);
         let (walls, plane) =
             (Walls::new(&config.world, 0.01), WallTable::plane(config.settings.kernel, 0.027));
-        let tables = BodyTables::default();
+        let tables = BodyTables::new(&[], crate::Kernel::Wendland, 0.027);
         let solids = Solids { walls: &walls, bodies: &[], plane: &plane, tables: &tables };
         restack(&mut particles, &config, &solids);
         for i in 0..100 {

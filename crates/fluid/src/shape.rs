@@ -1,11 +1,13 @@
 //! Shapes of the bodies that stand in the fluid.
 
-use glam::{DQuat, DVec3, Vec3};
+use crate::Mesh;
+use glam::{DMat3, DQuat, DVec3, Vec3};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Shape of a body, in its own frame, centred at its origin. A slab and a drum have no end: they are for worlds
 /// that are periodic along them, or bounded.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A ball.
     Sphere {
@@ -31,6 +33,8 @@ pub enum Shape {
         /// Lengths of its edges, m.
         size: DVec3,
     },
+    /// What a closed mesh holds.
+    Mesh(Arc<Mesh>),
     /// All between two parallel planes across the body's y axis.
     Slab {
         /// Distance of the planes, m.
@@ -51,6 +55,7 @@ impl Shape {
             Self::Disc { radius, thickness } => radius.hypot(0.5 * thickness),
             Self::Capsule { radius, length } => radius + 0.5 * length,
             Self::Box { size } => 0.5 * size.length(),
+            Self::Mesh(ref mesh) => mesh.bounding_radius(),
             Self::Slab { .. } | Self::Drum { .. } => f64::INFINITY,
         }
     }
@@ -62,6 +67,7 @@ impl Shape {
             Self::Disc { radius, thickness } => [radius, thickness, radius],
             Self::Capsule { radius, length } => [radius, length, radius],
             Self::Box { size } => size.to_array(),
+            Self::Mesh(ref mesh) => [mesh.bounding_radius(); 3],
             Self::Slab { thickness } => [thickness; 3],
         }
     }
@@ -72,14 +78,15 @@ impl Shape {
             Self::Sphere { radius } => 1.0 / radius,
             Self::Capsule { radius, .. } => 0.5 / radius,
             Self::Drum { radius } => -0.5 / radius,
-            Self::Disc { .. } | Self::Box { .. } | Self::Slab { .. } => 0.0,
+            Self::Disc { .. } | Self::Box { .. } | Self::Mesh(_) | Self::Slab { .. } => 0.0,
         }
     }
 
-    /// Principal moments of inertia about the origin for a body of `mass` (kg) of even density, kg m²; infinite
-    /// for a shape without end.
-    pub fn inertia(&self, mass: f64) -> DVec3 {
-        match *self {
+    /// Tensor of inertia about the origin of a body of `mass` (kg) of even density, kg m²; infinite for a shape
+    /// without end.
+    pub fn inertia(&self, mass: f64) -> DMat3 {
+        DMat3::from_diagonal(match *self {
+            Self::Mesh(ref mesh) => return mesh.inertia(mass),
             Self::Sphere { radius } => DVec3::splat(0.4 * mass * radius * radius),
             Self::Disc { radius, thickness } => {
                 let across = mass * (3.0 * radius * radius + thickness * thickness) / 12.0;
@@ -91,7 +98,7 @@ impl Shape {
                 mass / 12.0 * DVec3::new(s.y + s.z, s.x + s.z, s.x + s.y)
             }
             Self::Slab { .. } | Self::Drum { .. } => DVec3::INFINITY,
-        }
+        })
     }
 
     /// Volume, m³; infinite for a shape without end.
@@ -101,12 +108,13 @@ impl Shape {
             Self::Disc { radius, thickness } => PI * radius * radius * thickness,
             Self::Capsule { radius, length } => PI * radius * radius * (length + 4.0 / 3.0 * radius),
             Self::Box { size } => size.element_product(),
+            Self::Mesh(ref mesh) => mesh.volume(),
             Self::Slab { .. } | Self::Drum { .. } => f64::INFINITY,
         }
     }
 
     /// Signed distance (m, negative inside) and outward unit normal at `point`, in the body frame.
-    pub(crate) fn distance(&self, point: Vec3) -> (f32, Vec3) {
+    pub fn distance(&self, point: Vec3) -> (f32, Vec3) {
         match *self {
             Self::Sphere { radius } => ball_distance(point, radius as f32),
             Self::Disc { radius, thickness } => disc_distance(point, radius as f32, 0.5 * thickness as f32),
@@ -115,6 +123,7 @@ impl Shape {
                 ball_distance(point - Vec3::Y * point.y.clamp(-half, half), radius as f32)
             }
             Self::Box { size } => box_distance(point, 0.5 * size.as_vec3()),
+            Self::Mesh(ref mesh) => mesh.distance(point),
             Self::Slab { thickness } => {
                 (point.y.abs() - 0.5 * thickness as f32, Vec3::new(0.0, 1.0_f32.copysign(point.y), 0.0))
             }
@@ -253,7 +262,7 @@ mod tests {
                 }
             }
             assert!((volume / shape.volume() - 1.0).abs() < 0.02, "{shape:?}: {volume}");
-            let expected = shape.inertia(volume);
+            let expected = shape.inertia(volume) * DVec3::ONE;
             assert!(((inertia - expected) / expected).abs().max_element() < 0.03, "{shape:?}: {inertia}");
         }
     }

@@ -1,7 +1,7 @@
 //! All solid surfaces round a particle: ground, container and bodies, behind one visit.
 
 use crate::World;
-use crate::body::{BodyNow, BodyTables, Contact};
+use crate::body::{BodyNow, BodyTable, BodyTables, Contact};
 use crate::wall::{WallTable, WallTerms};
 use glam::Vec3;
 
@@ -102,10 +102,21 @@ impl Solids<'_> {
         }
     }
 
-    /// Kernel integrals over the solid that was met.
-    pub fn terms(&self, meeting: &Meeting) -> WallTerms {
-        let table = meeting.body.map_or(self.plane, |index| self.tables.get(index));
-        table.at(meeting.contact.distance)
+    /// Kernel integrals over the solid that was met. At an edge their normal is not that of the nearest surface: it
+    /// becomes the meeting's.
+    pub fn terms(&self, meeting: &mut Meeting) -> WallTerms {
+        let Contact { distance, arm, .. } = meeting.contact;
+        let Some(index) = meeting.body else { return self.plane.at(distance) };
+        match self.tables.get(index) {
+            BodyTable::Distance(table) => table.at(distance),
+            BodyTable::Place(map) => {
+                let frame = self.bodies[index].frame;
+                let (terms, outward) = map.at(frame.to_body_direction(arm));
+                let turned = outward.map(|n| frame.to_scene_direction(n));
+                meeting.contact.normal = turned.unwrap_or(meeting.contact.normal);
+                terms
+            }
+        }
     }
 }
 

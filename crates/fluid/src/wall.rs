@@ -29,6 +29,16 @@ pub(crate) struct WallTerms {
     pub friction: f32,
 }
 
+impl WallTerms {
+    pub fn add_scaled(&mut self, other: &Self, scale: f32) {
+        self.volume += scale * other.volume;
+        self.gradient += scale * other.gradient;
+        self.normal_moment += scale * other.normal_moment;
+        self.tangent_moment += scale * other.tangent_moment;
+        self.friction += scale * other.friction;
+    }
+}
+
 /// The integrals tabulated over d from −H/2 to H.
 #[derive(Clone, Debug)]
 pub(crate) struct WallTable {

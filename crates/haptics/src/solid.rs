@@ -19,6 +19,13 @@ pub enum SolidShape {
         /// Thickness, m.
         thickness: f64,
     },
+    /// A rod along the y axis with round ends, about the origin.
+    Capsule {
+        /// Radius, m.
+        radius: f64,
+        /// Distance between the centres of its ends, m.
+        length: f64,
+    },
     /// A box round the origin, its edges along the axes.
     Box {
         /// Half of its edges, m.
@@ -33,6 +40,7 @@ impl SolidShape {
             Self::HalfSpace => 0.0,
             Self::Sphere { radius } => radius,
             Self::Disc { radius, thickness } => radius.hypot(0.5 * thickness),
+            Self::Capsule { radius, length } => radius + 0.5 * length,
             Self::Box { half } => half.length(),
         }
     }
@@ -41,9 +49,10 @@ impl SolidShape {
     fn distance(&self, point: DVec3) -> (f64, DVec3) {
         match *self {
             Self::HalfSpace => (point.y, DVec3::Y),
-            Self::Sphere { radius } => {
-                let length = point.length();
-                (length - radius, point.try_normalize().unwrap_or(DVec3::Y))
+            Self::Sphere { radius } => ball_distance(point, radius),
+            Self::Capsule { radius, length } => {
+                let half = 0.5 * length;
+                ball_distance(point - DVec3::Y * point.y.clamp(-half, half), radius)
             }
             Self::Disc { radius, thickness } => {
                 let across = DVec3::new(point.x, 0.0, point.z);
@@ -58,6 +67,10 @@ impl SolidShape {
             }
         }
     }
+}
+
+fn ball_distance(point: DVec3, radius: f64) -> (f64, DVec3) {
+    (point.length() - radius, point.try_normalize().unwrap_or(DVec3::Y))
 }
 
 /// Distance and normal where a point is `out` metres beyond each of three pairs of faces, whose outward `normals` are
@@ -190,6 +203,9 @@ mod tests {
         close(met(&disc, [1.0, -0.4, 0.1]), 0.3, DVec3::NEG_Y);
         close(met(&disc, [2.3, 0.5, 0.0]), 0.5, DVec3::new(0.6, 0.8, 0.0));
         close(met(&disc, [1.0, 0.09, 0.0]), -0.01, DVec3::Y);
+        let rod = still(SolidShape::Capsule { radius: 0.1, length: 1.0 });
+        close(met(&rod, [1.3, 0.2, 0.0]), 0.2, DVec3::X);
+        close(met(&rod, [1.0, -0.8, 0.0]), 0.2, DVec3::NEG_Y);
         close(met(&ground(0.3), [7.0, 0.1, 0.0]), -0.2, DVec3::Y);
     }
 

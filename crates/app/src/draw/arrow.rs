@@ -32,7 +32,7 @@ impl Arrow {
         let thick = 0.0085 * size;
         let head = 4.6 * thick;
         let length = head + 0.24 * size * (1.0 - (-strength / SCALE).exp());
-        let base = tool + axis * (0.9 * scene.tool.reach());
+        let base = tool + axis * (0.9 * scene.tool.shape.bounding_radius() as f32);
         let part = |from: f32, length: f32, radii: [f32; 2]| Solid {
             form: Form::Cone { base: base + axis * from, axis, length, radii },
             material: SIGNAL,

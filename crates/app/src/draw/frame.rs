@@ -13,9 +13,10 @@ use super::kernels::{REACH, kernels};
 use super::material::{LACQUER, Material, STEEL};
 use super::mirror::{Mote, add_images};
 use super::photons::{LightMap, Shade};
-use super::scene::{Box3, Nozzle, Scene3d, Tool, ToolShape};
+use super::scene::{Box3, Nozzle, Scene3d, Tool};
 use super::solid::{Form, Solid};
 use super::tracer::Tracer;
+use hapflow_fluid::Shape;
 
 /// Light that water swallows along the diagonal of the picture: red, green, blue.
 const MURK: Vec3 = Vec3::new(8.0, 1.8, 0.8);
@@ -105,18 +106,19 @@ fn solids(scene: &Scene3d) -> Vec<Solid> {
 
 fn solid(tool: &Tool, material: Material) -> Option<Solid> {
     let centre = Vec3::from(tool.position);
-    let reach = tool.reach();
+    let reach = tool.shape.bounding_radius();
     let form = match tool.shape {
-        ToolShape::Sphere { radius } => Form::Ball { centre, radius },
-        ToolShape::Disc { radius, thickness } => {
-            let axis = tool.axis();
+        Shape::Sphere { radius } => Form::Ball { centre, radius: radius as f32 },
+        Shape::Disc { radius, thickness } => {
+            let axis = (tool.turn() * Vec3::Y).normalize_or(Vec3::Y);
             Form::Cone {
-                base: centre - axis * (0.5 * thickness),
+                base: centre - axis * (0.5 * thickness as f32),
                 axis,
-                length: thickness,
-                radii: [radius; 2],
+                length: thickness as f32,
+                radii: [radius as f32; 2],
             }
         }
+        ref shape => Form::Shaped { shape: shape.clone(), centre, turn: tool.turn() },
     };
     (centre.is_finite() && reach.is_finite() && reach > 0.0).then_some(Solid { form, material })
 }
@@ -209,7 +211,7 @@ mod tests {
             speeds: &[],
             spacing: 0.01,
             tool: Tool {
-                shape: ToolShape::Sphere { radius: 0.02 },
+                shape: Shape::Sphere { radius: 0.02 },
                 position: [0.0; 3],
                 orientation: [0.0, 0.0, 0.0, 1.0],
             },
@@ -261,7 +263,7 @@ mod tests {
             odd.force = Some([bound; 3]);
             odd.tool.position = [bound; 3];
             odd.tool.orientation = [0.0; 4];
-            odd.tool.shape = ToolShape::Disc { radius: bound, thickness: 0.0 };
+            odd.tool.shape = Shape::Disc { radius: f64::from(bound), thickness: 0.0 };
             assert_eq!(render(&odd, 32, 18).pixels.len(), 32 * 18);
         }
         assert_eq!(render(&odd, 0, 0).pixels.len(), 1);

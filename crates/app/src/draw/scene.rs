@@ -1,6 +1,7 @@
 //! What a frame shows.
 
 use glam::{Quat, Vec3};
+use hapflow_fluid::Shape;
 
 /// Farthest from the origin that a picture may reach, m.
 const FARTHEST: f32 = 1e4;
@@ -33,31 +34,14 @@ pub struct Scene3d<'a> {
 }
 
 /// A solid thing, such as the tool, and where it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Tool {
     /// Its shape.
-    pub shape: ToolShape,
+    pub shape: Shape,
     /// Its centre, m.
     pub position: [f32; 3],
     /// Its orientation, a quaternion x, y, z, w.
     pub orientation: [f32; 4],
-}
-
-/// Shape of the tool in its own frame, centred at its origin.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ToolShape {
-    /// A ball.
-    Sphere {
-        /// Radius, m.
-        radius: f32,
-    },
-    /// A flat round plate whose axis is the tool's y axis.
-    Disc {
-        /// Radius, m.
-        radius: f32,
-        /// Thickness, m.
-        thickness: f32,
-    },
 }
 
 /// An axis-aligned box.
@@ -81,19 +65,10 @@ pub struct Nozzle {
 }
 
 impl Tool {
-    /// The tool's y axis in the scene.
-    pub(crate) fn axis(&self) -> Vec3 {
-        let turn = Quat::from_array(self.orientation);
-        let axis = turn.normalize() * Vec3::Y;
-        if axis.is_finite() { axis.normalize_or(Vec3::Y) } else { Vec3::Y }
-    }
-
-    /// Radius of the smallest ball that holds it, m.
-    pub(crate) fn reach(&self) -> f32 {
-        match self.shape {
-            ToolShape::Sphere { radius } => radius,
-            ToolShape::Disc { radius, thickness } => radius.hypot(0.5 * thickness),
-        }
+    /// How it is turned.
+    pub(crate) fn turn(&self) -> Quat {
+        let turn = Quat::from_array(self.orientation).normalize();
+        if turn.is_finite() { turn } else { Quat::IDENTITY }
     }
 }
 

@@ -68,7 +68,7 @@ fn each_pass(config: &FluidConfig, check: impl Fn(&mut Particles, &dyn Fn(&Parti
             Walls::new(&config.world, config.settings.spacing),
             WallTable::plane(config.settings.kernel, support),
         );
-        let tables = BodyTables::default();
+        let tables = BodyTables::new(&[], crate::Kernel::Wendland, 0.027);
         check(&mut particles, &|particles, run| {
             let solids = Solids { walls: &walls, bodies: &[], plane: &plane, tables: &tables };
             let mut meetings = Meetings::default();
