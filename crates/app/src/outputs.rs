@@ -84,17 +84,16 @@ fn draw(scene: &Scene, picture: &Picture) -> image::Image {
             diameter: s.diameter as f32,
         })
         .collect();
-    let still = |shape, position: DVec3| Tool {
-        shape,
-        position: position.as_vec3().to_array(),
-        orientation: [0.0, 0.0, 0.0, 1.0],
-    };
-    // A run moves the first tool; the others stay where they start.
-    let obstacles: Vec<Tool> = scene
-        .obstacles
-        .iter()
-        .map(|o| still(o.form.shape(), o.position))
-        .chain(scene.more_tools.iter().map(|t| still(t.form.shape(), t.position)))
+    // In the order of the reports; the first tool is where the servo has it.
+    let forms = scene.more_tools.iter().map(|t| &t.form).chain(scene.obstacles.iter().map(|o| &o.form));
+    let forms = forms.chain(scene.bodies.iter().map(|b| &b.form));
+    let obstacles: Vec<Tool> = forms
+        .zip(picture.bodies.iter().skip(1))
+        .map(|(form, body)| Tool {
+            shape: form.shape(),
+            position: body.state.position.as_vec3().to_array(),
+            orientation: body.state.orientation.as_quat().to_array(),
+        })
         .collect();
     let caption =
         format!("{}   t = {:.2} s   {} particles", scene.name, picture.time_s, view.positions.len());
@@ -130,9 +129,10 @@ fn framed(scene: &Scene) -> ([f32; 3], [f32; 3]) {
     if let Some(c) = scene.container {
         include(c.inner.min, c.inner.max);
     }
-    for o in &scene.obstacles {
-        let reach = DVec3::splat(o.form.shape().bounding_radius());
-        include(o.position - reach, o.position + reach);
+    let obstacles = scene.obstacles.iter().map(|o| (&o.form, o.position));
+    for (form, position) in obstacles.chain(scene.bodies.iter().map(|b| (&b.form, b.position))) {
+        let reach = DVec3::splat(form.shape().bounding_radius());
+        include(position - reach, position + reach);
     }
     for pool in &scene.pools {
         include(pool.min, pool.max);

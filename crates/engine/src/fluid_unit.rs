@@ -4,7 +4,8 @@ use crate::obstacles::Obstacles;
 use crate::shared::Shared;
 use crate::tool_lane::{FrameTime, ToolLane};
 use hapflow_fluid::{
-    BodyDrive, BodyMotion, FluidBackend, FluidConfig, FrameInput, FrameOutput, ParticleView,
+    BodyDrive, BodyLoad, BodyMotion, BodySample, FluidBackend, FluidConfig, FrameInput, FrameOutput,
+    ParticleView,
 };
 use hapflow_haptics::{FaultSet, Wrench};
 use hapflow_realtime::{LatestWriter, SharedFlags};
@@ -31,12 +32,23 @@ pub struct FluidReport {
     pub degraded: u64,
 }
 
+/// A body at the end of a fluid frame, and what the fluid did to it in that frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyReport {
+    /// Where it is, and how it moves.
+    pub state: BodySample,
+    /// Mean load of the fluid, by pressure and by friction; on a tool or an obstacle also that of free bodies.
+    pub load: BodyLoad,
+}
+
 /// The fluid's half of a session.
 pub struct FluidUnit {
     pub(crate) backend: Box<dyn FluidBackend>,
     pub(crate) tools: Vec<ToolLane>,
     pub(crate) obstacles: Obstacles,
     pub(crate) report: LatestWriter<FluidReport>,
+    /// Of tools, obstacles and free bodies, in this order.
+    pub(crate) bodies: LatestWriter<Vec<BodyReport>>,
     pub(crate) flags: SharedFlags,
     pub(crate) shared: Arc<Shared>,
     pub(crate) seen: u64,
@@ -62,13 +74,15 @@ impl FluidUnit {
     pub fn compute(&mut self, end_s: f64) {
         self.take_settings(end_s);
         let frame = FrameTime { number: self.newest.frame + 1, end_s, length_s: self.frame_s };
-        let (tools, obstacles) = self.config.world.bodies.split_at(self.tools.len());
+        let (tools, others) = self.config.world.bodies.split_at(self.tools.len());
+        let (obstacles, free) = others.split_at(self.obstacles.count());
         for (lane, config) in self.tools.iter_mut().zip(tools) {
             lane.begin_frame(config, frame);
         }
         let paths = self.obstacles.paths(obstacles, end_s, self.frame_s);
         let led = paths.iter().map(|path| BodyMotion { drive: BodyDrive::Led, path });
-        let motions: Vec<_> = self.tools.iter().map(ToolLane::motion).chain(led).collect();
+        let free = free.iter().map(|_| BodyMotion { drive: BodyDrive::Free, path: &[] });
+        let motions: Vec<_> = self.tools.iter().map(ToolLane::motion).chain(led).chain(free).collect();
         self.backend.submit(&FrameInput { duration: self.frame_s, bodies: &motions });
         let output = loop {
             match self.backend.poll() {
@@ -82,6 +96,12 @@ impl FluidUnit {
             let sound = lane.end_frame(config, *load, *end, frame);
             self.flags.raise(FaultSet::FLUID_FAULT.when(!sound).bits());
         }
+        for (to, (state, load)) in
+            self.bodies.buffer().iter_mut().zip(output.bodies.iter().zip(&output.loads))
+        {
+            *to = BodyReport { state: *state, load: *load };
+        }
+        self.bodies.publish();
         self.newest = report(&self.newest, output);
         self.report.write(self.newest);
         self.shared.answer_snapshot(&mut *self.backend);

@@ -42,14 +42,14 @@ mod value;
 pub use builtin::{load, shipped};
 pub use control::Control;
 pub use error::SceneError;
-pub use fluid_unit::{FluidReport, FluidUnit};
+pub use fluid_unit::{BodyReport, FluidReport, FluidUnit};
 pub use form::{Form, FormKind};
 pub use obstacles::ObstacleMover;
 pub use recorder::Recorded;
 pub use recording::{Recording, Row, TickWriter};
 pub use scene::{
-    BackendKind, Change, DeviceKind, MAX_OBSTACLES, MAX_TOOLS, MappingSettings, MotionOrigin, Obstacle,
-    RunSettings, Scene, ToolSettings,
+    BackendKind, Change, DeviceKind, FreeBody, MAX_BODIES, MAX_OBSTACLES, MAX_TOOLS, MappingSettings,
+    MotionOrigin, Obstacle, RunSettings, Scene, ToolSettings,
 };
 pub use scene_device::open_device;
 pub use scene_file::{parse, write};

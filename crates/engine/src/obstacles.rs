@@ -64,6 +64,11 @@ impl Obstacles {
         Self { poses, paths: bodies.iter().map(|b| [BodySample::at(b.position); 2]).collect(), felt }
     }
 
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.paths.len()
+    }
+
     /// The path of each obstacle through the frame that ends at `end_s`.
     pub fn paths(&mut self, bodies: &[BodyConfig], end_s: f64, frame_s: f64) -> &[[BodySample; 2]] {
         self.poses.update();

@@ -1,8 +1,8 @@
 //! Whole runs: a scene, its device, and every tick recorded.
 
 use crate::{
-    Drive, FluidPace, FluidReport, Recording, Scene, SceneError, ServoReport, Session, SessionOptions,
-    TickTimes, TickWriter, open_device,
+    BodyReport, Drive, FluidPace, FluidReport, Recording, Scene, SceneError, ServoReport, Session,
+    SessionOptions, TickTimes, TickWriter, open_device,
 };
 use hapflow_fluid::ParticleView;
 use hapflow_haptics::FaultSet;
@@ -55,6 +55,8 @@ pub struct Picture {
     pub particles: ParticleView,
     /// The tick.
     pub servo: ServoReport,
+    /// Tools, obstacles and free bodies, in this order.
+    pub bodies: Vec<BodyReport>,
 }
 
 /// What a run took.
@@ -123,7 +125,8 @@ pub fn virtual_clock(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, 
         if pictures.next_if(|at| **at <= time_s).is_some() {
             let mut particles = ParticleView::default();
             fluid.snapshot(&mut particles);
-            run.outcome.pictures.push(Picture { time_s, particles, servo: *servo.newest() });
+            let (servo, bodies) = (*servo.newest(), session.body_reports().to_vec());
+            run.outcome.pictures.push(Picture { time_s, particles, servo, bodies });
         }
         if n.is_multiple_of(TELL_EVERY) && run.tell(fluid.newest(), options.progress) {
             break;
@@ -170,7 +173,7 @@ pub fn real_time(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, Scen
         if pictures.next_if(|at| **at <= newest.time_s).is_some() {
             session.request_particles();
         }
-        answered = run.take_picture(&session, answered, newest);
+        answered = run.take_picture(&mut session, answered, newest);
         let stop = run.tell(&session.fluid_report(), options.progress);
         if stop || newest.time_s >= scene.run.duration || !session.servo_runs() {
             break;
@@ -232,13 +235,14 @@ impl Run {
         }
     }
 
-    fn take_picture(&mut self, session: &Session, answered: u64, servo: ServoReport) -> u64 {
+    fn take_picture(&mut self, session: &mut Session, answered: u64, servo: ServoReport) -> u64 {
         if session.particles_answered() == answered {
             return answered;
         }
         let mut particles = ParticleView::default();
         let now = session.particles(&mut particles);
-        self.outcome.pictures.push(Picture { time_s: servo.time_s, particles, servo });
+        let bodies = session.body_reports().to_vec();
+        self.outcome.pictures.push(Picture { time_s: servo.time_s, particles, servo, bodies });
         now
     }
 

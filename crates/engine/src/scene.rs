@@ -101,6 +101,29 @@ impl Default for Obstacle {
     }
 }
 
+/// Most free bodies in a scene.
+pub const MAX_BODIES: usize = 32;
+
+/// A rigid body that goes where fluid and gravity take it. Walls, obstacles, tools and other bodies stop it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeBody {
+    /// Name by which settings address it.
+    pub name: String,
+    /// Its shape.
+    pub form: Form,
+    /// Its mean density, kg/m³.
+    pub density: f64,
+    /// Where it starts, m.
+    pub position: DVec3,
+}
+
+impl Default for FreeBody {
+    /// A ball of 20 mm radius in the origin, half as dense as water.
+    fn default() -> Self {
+        Self { name: "0".into(), form: Form::ball(0.02), density: 500.0, position: DVec3::ZERO }
+    }
+}
+
 impl Default for ToolSettings {
     /// A ball of 15 mm radius and 0.1 kg in the origin.
     fn default() -> Self {
@@ -164,6 +187,8 @@ pub struct Scene {
     pub fluid: FluidSettings,
     /// Particles that leave it vanish.
     pub bounds: Aabb,
+    /// Axes (x, y, z) along which they come in again on the other side.
+    pub periodic: [bool; 3],
     /// Height of the ground, if there is one, m.
     pub ground: Option<f64>,
     /// An open box.
@@ -176,6 +201,8 @@ pub struct Scene {
     pub pools: Vec<Aabb>,
     /// What else is solid.
     pub obstacles: Vec<Obstacle>,
+    /// What floats or sinks.
+    pub bodies: Vec<FreeBody>,
     /// The first tool.
     pub tool: ToolSettings,
     /// The others, each for a hand of its own.
@@ -209,12 +236,14 @@ impl Default for Scene {
             },
             fluid: FluidSettings::default(),
             bounds: Aabb { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) },
+            periodic: [false; 3],
             ground: None,
             container: None,
             sources: Vec::new(),
             sinks: Vec::new(),
             pools: Vec::new(),
             obstacles: Vec::new(),
+            bodies: Vec::new(),
             tool: ToolSettings::default(),
             more_tools: Vec::new(),
             gate: GateSettings::default(),
@@ -241,6 +270,7 @@ impl Scene {
     /// What the fluid's backend needs to know.
     pub fn fluid_config(&self, threads: usize) -> FluidConfig {
         let tools = self.tools().map(tool_body);
+        let solids = tools.chain(self.obstacles.iter().map(obstacle_body));
         FluidConfig {
             settings: self.fluid.clone(),
             world: World {
@@ -250,7 +280,8 @@ impl Scene {
                 sources: self.sources.clone(),
                 sinks: self.sinks.clone(),
                 pools: self.pools.clone(),
-                bodies: tools.chain(self.obstacles.iter().map(obstacle_body)).collect(),
+                bodies: solids.chain(self.bodies.iter().map(free_body)).collect(),
+                periodic: self.periodic,
                 ..World::default()
             },
             frame_hz: self.run.fluid_hz,
@@ -309,7 +340,8 @@ impl Scene {
     /// A mesh comes from a file.
     fn check_forms(&self) -> Result<(), SceneError> {
         let tools = self.tools().map(|t| ("tool", &t.name, &t.form));
-        let mut forms = tools.chain(self.obstacles.iter().map(|o| ("obstacle", &o.name, &o.form)));
+        let forms = tools.chain(self.obstacles.iter().map(|o| ("obstacle", &o.name, &o.form)));
+        let mut forms = forms.chain(self.bodies.iter().map(|b| ("body", &b.name, &b.form)));
         match forms.find(|(.., form)| !form.is_whole()) {
             None => Ok(()),
             Some((kind, name, _)) => Err(SceneError::BadValue {
@@ -322,18 +354,21 @@ impl Scene {
 
     /// Settings address sources and obstacles by name.
     fn check_names(&self) -> Result<(), SceneError> {
-        if self.obstacles.len() > MAX_OBSTACLES {
-            let count = self.obstacles.len();
-            return Err(SceneError::Refused(format!("{count} obstacles: there may be {MAX_OBSTACLES}")));
-        }
-        if self.tools().count() > MAX_TOOLS {
-            let count = self.tools().count();
-            return Err(SceneError::Refused(format!("{count} tools: there may be {MAX_TOOLS}")));
+        for (kind, count, most) in [
+            ("obstacles", self.obstacles.len(), MAX_OBSTACLES),
+            ("bodies", self.bodies.len(), MAX_BODIES),
+            ("tools", self.tools().count(), MAX_TOOLS),
+        ] {
+            if count > most {
+                return Err(SceneError::Refused(format!("{count} {kind}: there may be {most}")));
+            }
         }
         let tools: Vec<_> = self.tools().map(|t| t.name.as_str()).collect();
         let sources: Vec<_> = self.sources.iter().map(|s| s.name.as_str()).collect();
         let obstacles: Vec<_> = self.obstacles.iter().map(|o| o.name.as_str()).collect();
-        for (kind, names) in [("tool", tools), ("source", sources), ("obstacle", obstacles)] {
+        let bodies: Vec<_> = self.bodies.iter().map(|b| b.name.as_str()).collect();
+        for (kind, names) in [("tool", tools), ("source", sources), ("obstacle", obstacles), ("body", bodies)]
+        {
             if let Some(name) =
                 (1..names.len()).find_map(|k| names[..k].contains(&names[k]).then_some(names[k]))
             {
@@ -379,6 +414,12 @@ fn tool_body(tool: &ToolSettings) -> BodyConfig {
         collision_response: tool.collision_response,
         position: tool.position,
     }
+}
+
+fn free_body(body: &FreeBody) -> BodyConfig {
+    let shape = body.form.shape();
+    let mass = body.density * shape.volume();
+    BodyConfig { shape, mass, collision_response: 1.0, position: body.position }
 }
 
 fn obstacle_body(obstacle: &Obstacle) -> BodyConfig {

@@ -1,6 +1,6 @@
 //! A scene that is built by calls: every part is checked as it comes, by the same table as in a scene file.
 
-use crate::scene::{Change, MAX_OBSTACLES, MAX_TOOLS, Obstacle, Scene, ToolSettings};
+use crate::scene::{Change, FreeBody, MAX_BODIES, MAX_OBSTACLES, MAX_TOOLS, Obstacle, Scene, ToolSettings};
 use crate::settings::{self, Named};
 use crate::{SceneError, Value};
 use hapflow_fluid::{Aabb, OpenBox, Source};
@@ -29,6 +29,14 @@ impl Scene {
     /// As [`add_source`](Self::add_source).
     pub fn add_obstacle(&mut self, obstacle: Obstacle) -> Result<usize, SceneError> {
         add_named(&mut self.obstacles, obstacle, 0, MAX_OBSTACLES)
+    }
+
+    /// Adds a free body, and gives its number.
+    ///
+    /// # Errors
+    /// As [`add_source`](Self::add_source).
+    pub fn add_body(&mut self, body: FreeBody) -> Result<usize, SceneError> {
+        add_named(&mut self.bodies, body, 0, MAX_BODIES)
     }
 
     /// Adds a tool to the first, which every scene has, and gives its number.

@@ -44,10 +44,10 @@ struct Reader<'a> {
 type Item<'i> = Spanned<DeValue<'i>>;
 
 /// The tables that are not settings.
-const SECTIONS: [&str; 7] = ["container", "bounds", "source", "obstacle", "pool", "sink", "change"];
+const SECTIONS: [&str; 8] = ["container", "bounds", "source", "obstacle", "body", "pool", "sink", "change"];
 
 /// Those that are read first.
-const NAMED: [&str; 4] = ["source", "obstacle", "tool", "hand"];
+const NAMED: [&str; 5] = ["source", "obstacle", "body", "tool", "hand"];
 
 impl Reader<'_> {
     fn error_at(&self, offset: usize, what: &str) -> SceneError {
@@ -84,6 +84,8 @@ impl Reader<'_> {
             ("sink", DeValue::Array(list)) => scene.sinks = self.boxes(key, list)?,
             ("source", DeValue::Array(list)) => scene.sources = self.named(list)?,
             ("obstacle", DeValue::Array(list)) => scene.obstacles = self.named(list)?,
+            ("body", DeValue::Array(list)) => scene.bodies = self.named(list)?,
+            ("periodic", DeValue::Array(list)) => scene.periodic = self.axes(list)?,
             ("tool", DeValue::Array(list)) => {
                 scene.more_tools = self.named(list)?;
                 if !scene.more_tools.is_empty() {
@@ -178,6 +180,22 @@ impl Reader<'_> {
         } else {
             self.wrong(item, &format!("{key}: each coordinate of min {min} must be below that of max {max}"))
         }
+    }
+
+    /// Some of the letters x, y and z.
+    fn axes(&self, list: &[Item<'_>]) -> Result<[bool; 3], SceneError> {
+        let mut axes = [false; 3];
+        for item in list {
+            match self.text_of("periodic", item)?.as_str() {
+                "x" => axes[0] = true,
+                "y" => axes[1] = true,
+                "z" => axes[2] = true,
+                other => {
+                    return self.wrong(item, &format!("periodic: \"{other}\" must be one of x, y, z"));
+                }
+            }
+        }
+        Ok(axes)
     }
 
     fn boxes(&self, key: &str, list: &[Item<'_>]) -> Result<Vec<Aabb>, SceneError> {
@@ -337,10 +355,13 @@ fn unknown_section(key: &str) -> String {
         "about",
         "ground",
         "bounds",
+        "periodic",
         "container",
         "pool",
         "sink",
         "source",
+        "obstacle",
+        "body",
         "change",
         "hand",
         "run",
@@ -351,8 +372,14 @@ fn unknown_section(key: &str) -> String {
     ];
     let nearest = known.into_iter().min_by_key(|k| settings::distance(k, key)).unwrap_or("");
     if known.contains(&key) {
-        let lists = ["pool", "sink", "source", "obstacle", "change"];
-        let form = if lists.contains(&key) { format!("[[{key}]]") } else { format!("[{key}]") };
+        let lists = ["pool", "sink", "source", "obstacle", "body", "change"];
+        let form = if key == "periodic" {
+            "periodic = [\"x\"]".into()
+        } else if lists.contains(&key) {
+            format!("[[{key}]]")
+        } else {
+            format!("[{key}]")
+        };
         format!("\"{key}\" must be written as a table, {form}")
     } else {
         format!("\"{key}\" is unknown (nearest: \"{nearest}\"); a scene has {}", known.join(", "))

@@ -1,7 +1,7 @@
 //! A session: a scene made to run, its two halves, and what main may do with it.
 
 use crate::control::Control;
-use crate::fluid_unit::{FluidReport, FluidUnit};
+use crate::fluid_unit::{BodyReport, FluidReport, FluidUnit};
 use crate::obstacles::{ObstacleMover, Obstacles, obstacle_poses};
 use crate::recorder::{Recorded, Recorder, Tape, make_files};
 use crate::scene::{BackendKind, Scene, ToolSettings};
@@ -13,7 +13,9 @@ use crate::tool_lane::ToolLane;
 use crate::touch::{SolidPaths, Touch};
 use crate::{SceneError, Value};
 use hapflow_devices::HapticDevice;
-use hapflow_fluid::{AnalyticJet, CpuBackend, FluidBackend, FluidConfig, ParticleView};
+use hapflow_fluid::{
+    AnalyticJet, BodyConfig, BodyLoad, BodySample, CpuBackend, FluidBackend, FluidConfig, ParticleView,
+};
 use hapflow_haptics::{Filter, LocalModel, SafetyGate, ToolState, Touching};
 use hapflow_realtime::{
     Clock, HostClock, LatestReader, LatestWriter, RealtimeStatus, RingConsumer, SharedFlags, latest, ring,
@@ -90,6 +92,7 @@ pub struct Session {
     control: Control,
     tools: Vec<ToolEnds>,
     fluid_report: LatestReader<FluidReport>,
+    bodies: LatestReader<Vec<BodyReport>>,
     fluid: Option<FluidUnit>,
     mover: Option<ObstacleMover>,
     owned: Owned,
@@ -123,12 +126,20 @@ impl Session {
         }
         let shared = Arc::new(Shared::new(scene, control.limit.clone(), threads, writers));
         let (report, fluid_report) = latest(FluidReport::default());
+        let at_rest =
+            |b: &BodyConfig| BodyReport { state: BodySample::at(b.position), load: BodyLoad::default() };
+        let (bodies_in, bodies) = latest(config.world.bodies.iter().map(at_rest).collect::<Vec<_>>());
         let (mover, poses) = obstacle_poses(scene.obstacles.len());
         let fluid = FluidUnit {
             backend: open_backend(scene, &config)?,
-            obstacles: Obstacles::new(poses, &config.world.bodies[lanes.len()..], felt),
+            obstacles: Obstacles::new(
+                poses,
+                &config.world.bodies[lanes.len()..][..scene.obstacles.len()],
+                felt,
+            ),
             tools: lanes,
             report,
+            bodies: bodies_in,
             flags: control.flags.clone(),
             shared: Arc::clone(&shared),
             seen: 0,
@@ -137,7 +148,8 @@ impl Session {
             newest: FluidReport::default(),
         };
         let (fluid, mover, owned) = (Some(fluid), Some(mover), Owned::default());
-        let mut session = Self { shared, control, tools, fluid_report, fluid, mover, owned, recorder: None };
+        let mut session =
+            Self { shared, control, tools, fluid_report, bodies, fluid, mover, owned, recorder: None };
         session.start(options)?;
         Ok(session)
     }
@@ -295,6 +307,12 @@ impl Session {
     pub fn fluid_report(&mut self) -> FluidReport {
         self.fluid_report.update();
         *self.fluid_report.get()
+    }
+
+    /// Tools, obstacles and free bodies, in this order, at the end of the newest fluid frame.
+    pub fn body_reports(&mut self) -> &[BodyReport] {
+        self.bodies.update();
+        self.bodies.get()
     }
 
     /// Asks for the particles; they come with the next fluid frame.

@@ -1,10 +1,10 @@
 //! Every setting in one table: path, unit, range, whether it may change while a session runs, and what it does.
 //!
 //! Scene files, `--set`, `[[change]]`, the C ABI and the README's table all read it. Settings of a source are
-//! addressed by its name: `source.tap.speed`; those of an obstacle likewise.
+//! addressed by its name: `source.tap.speed`; those of an obstacle or a body likewise.
 
 use crate::form::{Form, FormKind};
-use crate::scene::{BackendKind, DeviceKind, MotionOrigin, Obstacle, Scene, ToolSettings};
+use crate::scene::{BackendKind, DeviceKind, FreeBody, MotionOrigin, Obstacle, Scene, ToolSettings};
 use crate::{SceneError, Value};
 use hapflow_fluid::{InteractionMode, Kernel, Liquid, Solver, Source};
 use hapflow_haptics::{CouplingKind, FilterSpec};
@@ -613,6 +613,9 @@ pub fn table() -> String {
     for setting in OBSTACLE_SETTINGS {
         text += &row(setting, &Obstacle::default(), &format!("obstacle.NAME.{}", setting.path));
     }
+    for setting in BODY_SETTINGS {
+        text += &row(setting, &FreeBody::default(), &format!("body.NAME.{}", setting.path));
+    }
     text
 }
 
@@ -668,6 +671,7 @@ macro_rules! formed {
 formed!(Scene, tool.form);
 formed!(ToolSettings, form);
 formed!(Obstacle, form);
+formed!(FreeBody, form);
 
 /// Paths of the settings of a shape, and of the first tool's.
 const FORM: [&str; 7] = ["shape", "radius", "thickness", "length", "size", "file", "scale"];
@@ -828,6 +832,15 @@ pub const OBSTACLE_SETTINGS: &[Setting<Obstacle>] =
 const OBSTACLE_OTHERS: &[Setting<Obstacle>] =
     &[vector!("position", "m", -10.0..=10.0, LIVE, position, "Where it is, until the host moves it.")];
 
+/// Settings of a free body, addressed as `body.NAME.…`.
+pub const BODY_SETTINGS: &[Setting<FreeBody>] =
+    &joined::<_, { FORM.len() + BODY_OTHERS.len() }>(&[&form_settings(FORM), BODY_OTHERS]);
+
+const BODY_OTHERS: &[Setting<FreeBody>] = &[
+    number!("density", "kg/m³", 1.0..=1e5, LIVE, density, "Its mean density; water has 1000."),
+    vector!("position", "m", -10.0..=10.0, FIXED, position, "Where it starts."),
+];
+
 /// Sets `path` before a session starts.
 ///
 /// # Errors
@@ -851,6 +864,9 @@ fn put(scene: &mut Scene, path: &str, value: &Value, running: bool) -> Result<()
     if let Some((k, setting)) = find(&scene.obstacles, path) {
         return setting.put(&mut scene.obstacles[k], path, value, running);
     }
+    if let Some((k, setting)) = find(&scene.bodies, path) {
+        return setting.put(&mut scene.bodies[k], path, value, running);
+    }
     if let Some((k, setting)) = find(&scene.more_tools, path) {
         return setting.put(&mut scene.more_tools[k], path, value, running);
     }
@@ -868,6 +884,9 @@ pub fn get(scene: &Scene, path: &str) -> Result<Value, SceneError> {
     }
     if let Some((k, setting)) = find(&scene.obstacles, path) {
         return Ok(setting.get(&scene.obstacles[k]));
+    }
+    if let Some((k, setting)) = find(&scene.bodies, path) {
+        return Ok(setting.get(&scene.bodies[k]));
     }
     if let Some((k, setting)) = find(&scene.more_tools, path) {
         return Ok(setting.get(&scene.more_tools[k]));
@@ -907,6 +926,7 @@ macro_rules! named {
 
 named!(Source, "source", SOURCE_SETTINGS);
 named!(Obstacle, "obstacle", OBSTACLE_SETTINGS);
+named!(FreeBody, "body", BODY_SETTINGS);
 // In a path these are the tools but the first, whose settings are in the scene's own table.
 named!(ToolSettings, "tool", TOOL_SETTINGS);
 
@@ -924,7 +944,7 @@ fn paths<T: Named>(things: &[T]) -> impl Iterator<Item = String> {
 
 fn unknown(scene: &Scene, path: &str) -> SceneError {
     let all = SETTINGS.iter().map(|s| s.path.to_string()).chain(paths(&scene.sources));
-    let all = all.chain(paths(&scene.obstacles)).chain(paths(&scene.more_tools));
+    let all = all.chain(paths(&scene.obstacles)).chain(paths(&scene.bodies)).chain(paths(&scene.more_tools));
     let hint = match nearest(all, path) {
         Some(known) => format!("; did you mean {known}?"),
         None => "; `hapflow scenes --settings` lists them all".into(),

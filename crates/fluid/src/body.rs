@@ -64,8 +64,8 @@ pub enum BodyDrive {
         /// Velocity at the start of the frame, m/s.
         velocity: DVec3,
     },
-    /// It goes where the fluid and gravity take it, from where it is; the path plays no part. It may be lighter
-    /// than the fluid. Walls and other bodies do not stop it.
+    /// It goes where the fluid and gravity take it, from where it is, and walls and other bodies stop it; the path
+    /// plays no part. It may be lighter than the fluid.
     Free,
 }
 
@@ -199,7 +199,7 @@ impl Body {
     /// lighter than the fluid is stable too.
     fn fall(&mut self, load: &BodyLoad, medium: &Medium, dt: f64) {
         let (mass, shape) = (self.config.mass, &self.config.shape);
-        let carried = if shape.volume().is_finite() { medium.density * shape.volume() } else { 0.0 };
+        let carried = self.carried(medium);
         let pull = load.force() + mass * medium.gravity + carried * self.acceleration;
         let acceleration = pull / (mass + carried);
         let s = &mut self.state;
@@ -214,6 +214,12 @@ impl Body {
         }
     }
 
+    /// Mass of the fluid that it displaces, kg.
+    pub fn carried(&self, medium: &Medium) -> f64 {
+        let volume = self.config.shape.volume();
+        if volume.is_finite() { medium.density * volume } else { 0.0 }
+    }
+
     /// 1/mass as a contact by impulse meets it, 1/kg.
     pub fn contact_inverse_mass(&self) -> f64 {
         match self.drive {
@@ -221,6 +227,11 @@ impl Body {
             BodyDrive::Driven { .. } => self.config.collision_response / self.config.mass,
             BodyDrive::Free => 1.0 / self.config.mass,
         }
+    }
+
+    /// Whether it goes where forces take it.
+    pub fn is_free(&self) -> bool {
+        self.drive == BodyDrive::Free
     }
 
     pub fn end_frame(&mut self, motion: &BodyMotion<'_>) {

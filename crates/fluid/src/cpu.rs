@@ -13,6 +13,7 @@ use crate::neighbours::Neighbours;
 use crate::particles::{Newborn, Particles};
 use crate::periodic::Periodic;
 use crate::restack::restack;
+use crate::rigid::Rigid;
 use crate::solids::{Meeting, Solids, Walls};
 use crate::solver::muller::Muller;
 use crate::solver::wcsph::{PACKING_INTERVAL, Rates, Wcsph};
@@ -120,6 +121,7 @@ struct Fluid {
     periodic: Periodic,
     plane: WallTable,
     tables: BodyTables,
+    rigid: Rigid,
     time: f64,
     substep: u64,
     max_speed: f32,
@@ -170,6 +172,7 @@ impl Fluid {
             periodic: Periodic::new(&config.world),
             plane: WallTable::plane(config.settings.kernel, support),
             tables: BodyTables::new(&config.world.bodies, config.settings.kernel, support),
+            rigid: Rigid::default(),
             time: 0.0,
             substep: 0,
             max_speed: 0.0,
@@ -256,6 +259,7 @@ impl Fluid {
         for (body, motion) in self.bodies.iter_mut().zip(frame.bodies) {
             body.begin_frame(motion, frame.duration);
         }
+        self.rigid.take_shapes(&self.bodies);
         self.degraded = false;
         output.max_speed = 0.0;
         output.loads.clear();
@@ -275,10 +279,11 @@ impl Fluid {
         output.degraded = self.degraded;
     }
 
-    /// Highest speed of any body along its path, m/s; a jump counts as none.
+    /// Highest speed of any body, along its path or as it is, m/s; a jump counts as none.
     fn tool_speed(&self, frame: &FrameInput<'_>) -> f64 {
         let path = frame.bodies.iter().flat_map(|m| m.path);
-        path.map(|s| s.velocity.length()).filter(|v| v.is_finite()).fold(0.0, f64::max).min(20.0)
+        let free = self.bodies.iter().filter(|b| b.is_free()).map(|b| &b.state);
+        path.chain(free).map(|s| s.velocity.length()).filter(|v| v.is_finite()).fold(0.0, f64::max).min(20.0)
     }
 
     fn plan(&self, config: &FluidConfig, dt: f64) -> Step {
@@ -333,6 +338,13 @@ impl Fluid {
         for (body, load) in self.bodies.iter_mut().zip(&self.step_loads) {
             body.push(load, &medium, step.dt);
         }
+        self.rigid.part(
+            &mut self.bodies,
+            &self.walls,
+            &self.periodic,
+            &mut self.step_loads,
+            (&medium, step.dt),
+        );
         self.substep += 1;
     }
 

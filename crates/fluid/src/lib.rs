@@ -31,6 +31,7 @@ mod particles;
 mod periodic;
 mod pools;
 mod restack;
+mod rigid;
 mod shape;
 mod solids;
 mod solver;

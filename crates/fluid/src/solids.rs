@@ -21,7 +21,7 @@ impl Walls {
     }
 
     /// Calls `meet(distance, normal)` for each wall closer than `margin`.
-    fn visit(&self, p: Vec3, margin: f32, mut meet: impl FnMut(f32, Vec3)) {
+    pub fn visit(&self, p: Vec3, margin: f32, mut meet: impl FnMut(f32, Vec3)) {
         if let Some(height) = self.ground
             && p.y - height < margin
         {

@@ -17,6 +17,10 @@ pub fn write(scene: &Scene) -> String {
     if let Some(height) = scene.ground {
         text += &format!("ground = {height}\n");
     }
+    let axes = ["x", "y", "z"].iter().zip(scene.periodic).filter(|(_, on)| *on).map(|(axis, _)| quoted(axis));
+    if scene.periodic.contains(&true) {
+        text += &format!("periodic = [{}]\n", axes.collect::<Vec<_>>().join(", "));
+    }
     text += &tables(scene);
     if scene.bounds != Scene::default().bounds {
         text += &aabb("[bounds]", &scene.bounds);
@@ -28,6 +32,7 @@ pub fn write(scene: &Scene) -> String {
     scene.sinks.iter().for_each(|sink| text += &aabb("[[sink]]", sink));
     scene.sources.iter().for_each(|source| text += &named(source));
     scene.obstacles.iter().for_each(|obstacle| text += &named(obstacle));
+    scene.bodies.iter().for_each(|body| text += &named(body));
     if has_tool_list(scene) {
         scene.tools().for_each(|tool| text += &named(tool));
     }
