@@ -6,8 +6,8 @@
 mod c_support;
 
 use c_support::{
-    Api, DRIVE_OWNED, Device, JET, Random, Scene, Session, SessionConfig, SourceConfig, ToolConfig,
-    ToolState, Variant, Wrench, code, made,
+    Api, BodyConfig, DRIVE_OWNED, Device, JET, Random, Scene, Session, SessionConfig, SourceConfig,
+    ToolConfig, ToolState, Variant, Wrench, code, made,
 };
 use std::ffi::{CString, c_char};
 use std::ptr::{null, null_mut};
@@ -306,7 +306,13 @@ impl Fuzz {
         let (api, scene, [min, max]) = (self.api, self.scene(), self.corners());
         let at = |corner: &Option<[f64; 3]>| corner.as_ref().map_or(null(), |c| &raw const *c);
         let (min, max, index) = (at(&min), at(&max), null_mut());
-        match self.random.below(16) {
+        match self.random.below(18) {
+            15 => {
+                let (radius, shape, density) = (self.number(), self.random.below(8) as u32, self.number());
+                let config = BodyConfig { radius, shape, density, ..made(api.body_config_init) };
+                (api.scene_add_body)(scene, &config, index)
+            }
+            16 => (api.scene_set_periodic)(scene, self.random.below(9) as u32),
             0 | 1 if self.scenes.len() < 8 => {
                 let mut made = Scene::default();
                 let result = (api.scene_create)(&mut made);
@@ -358,8 +364,8 @@ impl Fuzz {
     fn init(&mut self) -> i32 {
         let api = self.api;
         self.memory.fill(GUARD);
-        let which = self.random.below(8);
-        let right = [104, 136, 280, 32, 40, 56, 72, 80][which as usize];
+        let which = self.random.below(9);
+        let right = [104, 136, 280, 32, 40, 56, 72, 80, 184][which as usize];
         let size = self.struct_size(right);
         match which {
             0 => (api.session_config_init)(self.place(), size),
@@ -369,6 +375,7 @@ impl Fuzz {
             4 => (api.device_info_init)(self.place(), size),
             5 => (api.device_config_init)(self.place(), size),
             6 => (api.servo_pace_init)(self.place(), size),
+            8 => (api.body_report_init)(self.place(), size),
             _ => (api.setting_info_init)(self.place(), size),
         }
     }
@@ -382,7 +389,8 @@ impl Fuzz {
             let size = self.struct_size(280).to_ne_bytes();
             self.memory[..4].copy_from_slice(&size);
         }
-        match self.random.below(5) {
+        match self.random.below(6) {
+            4 => (api.session_body_report)(session, index % 5, index % 3, self.place()),
             0 if index < 50 => (api.session_report)(session, self.place()),
             0 => (api.session_report_of)(session, index % 3, self.place()),
             1 => (api.scene_get)(index % 6, self.place()),

@@ -69,6 +69,8 @@ fn null_pointers_are_refused_and_outputs_stay() {
     assert_eq!((api.servo_pace_init)(null_mut(), 72), code::NULL);
     assert_eq!((api.device_config_init)(null_mut(), 56), code::NULL);
     assert_eq!((api.obstacle_count)(session, null_mut()), code::NULL);
+    assert_eq!((api.session_body_report)(session, 1, 0, null_mut()), code::NULL);
+    assert_eq!((api.body_report_init)(null_mut(), 184), code::NULL);
     assert_eq!((api.obstacle_move)(session, 0, null(), &[0.0; 4]), code::NULL);
     assert_eq!((api.obstacle_move)(session, 0, &[0.0; 3], null()), code::NULL);
     assert_eq!((api.fluid_particles)(session, null_mut(), 0, null_mut()), code::NULL);
@@ -111,6 +113,7 @@ fn stale_and_doubled_handles_are_codes() {
         assert_eq!((api.device_clear_faults)(device), code::HANDLE);
         assert_eq!((api.device_close)(device), code::HANDLE);
         assert_eq!((api.obstacle_count)(handle, null_mut()), code::HANDLE);
+        assert_eq!((api.session_body_report)(handle, 1, 0, null_mut()), code::HANDLE);
         assert_eq!((api.obstacle_move)(handle, 0, null(), null()), code::HANDLE);
         assert_eq!((api.obstacle_publish)(handle), code::HANDLE);
         assert_eq!(api.tick(handle, &ToolState { tool: 1, ..api.state(0) }), (code::HANDLE, Wrench::ZERO));
@@ -485,6 +488,7 @@ fn every_init_function_takes_newer_sizes_and_writes_no_further() {
     init_at_every_size(72, api.servo_pace_init);
     init_at_every_size(136, api.tool_state_init);
     init_at_every_size(280, api.report_init);
+    init_at_every_size(184, api.body_report_init);
     init_at_every_size(32, api.scene_info_init);
     init_at_every_size(40, api.device_info_init);
     init_at_every_size(80, api.setting_info_init);

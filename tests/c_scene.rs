@@ -5,8 +5,8 @@
 mod c_support;
 
 use c_support::{
-    Api, JET, ObstacleConfig, Scene, Session, SessionConfig, SourceConfig, ToolConfig, Variant, Wrench, code,
-    made,
+    Api, BodyConfig, JET, ObstacleConfig, Scene, Session, SessionConfig, SourceConfig, ToolConfig, Variant,
+    Wrench, code, made,
 };
 use hapflow::engine::{load, parse, shipped};
 use std::ffi::{CStr, CString};
@@ -187,6 +187,14 @@ fn what_cannot_be_is_refused_with_the_reason_and_the_scene_stays() {
         value,
         &["tool.1.solid_stiffness = 20000", "0 to 10000"],
     );
+    let body = |spoil: fn(&mut BodyConfig)| {
+        let mut config = made(api.body_config_init);
+        spoil(&mut config);
+        (api.scene_add_body)(scene, &config, null_mut())
+    };
+    refused(&api, body(|b| b.density = 0.0), value, &["body.0.density = 0", "1 to 100000 kg/m³"]);
+    refused(&api, body(|b| b.mesh = JET.as_ptr().cast()), code::UNSUPPORTED, &[]);
+    refused(&api, (api.scene_set_periodic)(scene, 8), code::UNSUPPORTED, &["axes = 8", "0 to 7"]);
     refused(&api, tool(|t| t.name = c"0".as_ptr()), value, &["tool.name = \"0\""]);
     let (low, high) = ([0.0; 3], [1.0; 3]);
     refused(&api, (api.scene_add_pool)(scene, &high, &low, null_mut()), value, &["pool.min", "below max"]);
@@ -224,6 +232,39 @@ fn what_cannot_be_is_refused_with_the_reason_and_the_scene_stays() {
         code::SCENE,
         &["only one of scene, toml and built"],
     );
+}
+
+#[test]
+fn a_free_body_falls_and_is_reported() {
+    let api = ready();
+    let scene = jet(&api);
+    let ball =
+        BodyConfig { shape: 5, density: 2000.0, position: [0.05, 0.0, 0.05], ..made(api.body_config_init) };
+    let mut index = 9;
+    assert_eq!(((api.scene_add_body)(scene, &ball, &mut index), index), (code::OK, 0));
+    assert_eq!((api.scene_set_periodic)(scene, 5), code::OK);
+    let text = api.written(scene);
+    assert!(text.contains("periodic = [\"x\", \"z\"]") && text.contains("shape = \"box\""), "{text}");
+    let session = session_of(&api, scene);
+    let report = |which, index| {
+        let mut report = made(api.body_report_init);
+        ((api.session_body_report)(session, which, index, &mut report), report)
+    };
+    let (result, before) = report(3, 0);
+    assert_eq!(
+        (result, before.position, before.orientation),
+        (code::OK, ball.position, [0.0, 0.0, 0.0, 1.0])
+    );
+    assert_eq!((api.fluid_advance)(session, 0.1), code::OK);
+    let (_, fallen) = report(3, 0);
+    assert!(fallen.position[1] < -0.02 && fallen.velocity[1] < -0.5, "{fallen:?}");
+    assert_eq!(api.get(session, "body.0.density"), Ok(2000.0));
+    assert_eq!(report(1, 0).0, code::OK);
+    for (which, index, expected) in
+        [(1, 1, code::INDEX), (2, 0, code::INDEX), (3, 1, code::INDEX), (0, 0, code::UNSUPPORTED)]
+    {
+        assert_eq!(report(which, index).0, expected, "{which} {index}");
+    }
 }
 
 #[test]

@@ -23,6 +23,8 @@ static int failed = 0;
         } \
     } while (false)
 
+using hapflow::Body;
+using hapflow::BodyList;
 using hapflow::Box;
 using hapflow::Config;
 using hapflow::Device;
@@ -574,9 +576,9 @@ static void scenes_are_built() {
 
     // What a struct says where nothing is set is what the library says.
     Scene plain;
-    CHECK(plain.add(Source{}) == 0 && plain.add(Obstacle{}) == 0 && plain.add(Tool{}) == 1);
+    CHECK(plain.add(Source{}) == 0 && plain.add(Obstacle{}) == 0 && plain.add(Tool{}) == 1 && plain.add(Body{}) == 0);
     CHECK(plain.write() == "name = \"scene\"\n\n[[source]]\nname = \"0\"\n\n[[obstacle]]\nname = \"0\"\n\n"
-                           "[[tool]]\nname = \"0\"\n\n[[tool]]\nname = \"1\"\n");
+                           "[[body]]\nname = \"0\"\n\n[[tool]]\nname = \"0\"\n\n[[tool]]\nname = \"1\"\n");
 
     // Every field arrives.
     Source source;
@@ -590,8 +592,16 @@ static void scenes_are_built() {
     source.on = false;
     Obstacle obstacle{"o", Shape::disc, 0.03, 0.004, {{0.1, 0, 0}}};
     Tool tool{"t", Shape::disc, 0.02, 0.003, 0.2, 0.5, {{0, 0.1, 0}}, 2, 300, 1};
+    Body body;
+    body.name = "b";
+    body.shape = Shape::box;
+    body.extent = {0.01, 0.02, 0.03};
+    body.density = 600;
+    body.position = {0, -0.2, 0};
     const Box box{{{-0.3, -0.3, -0.3}}, {{0.3, 0.3, 0.3}}};
     Scene full;
+    CHECK(full.add(body) == 0);
+    full.set_periodic(true, false, true);
     CHECK(full.add(source) == 0 && full.add(obstacle) == 0 && full.add(tool) == 1);
     CHECK(full.add_pool(box) == 0 && full.add_sink(box) == 0 && full.add_sink(box) == 1);
     full.set_ground(-0.4);
@@ -605,10 +615,16 @@ static void scenes_are_built() {
          {"direction = [1, 0, 0]", "diameter = 0.03", "speed = 2", "period = 0.5", "duty = 0.25", "on = false",
           "shape = \"disc\"", "radius = 0.03", "thickness = 0.004", "position = [0.1, 0, 0]", "thickness = 0.003",
           "mass = 0.2", "collision_response = 0.5", "force_scale = 2", "solid_stiffness = 300", "solid_damping = 1",
-          "ground = -0.4", "[container]", "[[pool]]", "gravity = [0, -1.6, 0]", "two_way = false", "source.s.on = true"}) {
+          "[[body]]", "size = [0.01, 0.02, 0.03]", "density = 600", "periodic = [\"x\", \"z\"]", "ground = -0.4", "[container]", "[[pool]]", "gravity = [0, -1.6, 0]", "two_way = false", "source.s.on = true"}) {
         CHECK(text.find(part) != std::string::npos);
     }
     CHECK(Scene::parse(text).write() == text);
+    Config floating;
+    floating.toml = "[[body]]\nposition = [0.1, 0, 0]\n";
+    Session session(floating);
+    session.fluid_advance(0.1);
+    CHECK(session.body_report(BodyList::free, 0).velocity[1] < -0.5);
+    THROWS(HAPFLOW_ERROR_INDEX, {"no body 1"}, static_cast<void>(session.body_report(BodyList::free, 1)));
     full.clear_ground();
     full.clear_container();
     CHECK(full.write().find("ground") == std::string::npos && full.write().find("[container]") == std::string::npos);

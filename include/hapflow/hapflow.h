@@ -40,6 +40,7 @@
 #include <hapflow/servo.h>
 #include <hapflow/fluid.h>
 #include <hapflow/obstacle.h>
+#include <hapflow/body.h>
 #include <hapflow/report.h>
 #include <hapflow/log.h>
 #include <hapflow/extension.h>

@@ -69,6 +69,17 @@ HAPFLOW_API hapflow_result hapflow_scene_set_text(hapflow_scene scene, const cha
  * Errors: HANDLE, BUSY, FAULTED, NULL, VALUE, NOT_FINITE. */
 HAPFLOW_API hapflow_result hapflow_scene_set_bounds(hapflow_scene scene, const double min[3], const double max[3]);
 
+/* Axes of hapflow_scene_set_periodic. */
+enum {
+    HAPFLOW_AXIS_X = 1 << 0,
+    HAPFLOW_AXIS_Y = 1 << 1,
+    HAPFLOW_AXIS_Z = 1 << 2,
+};
+
+/* Lets particles that leave the bounds along these axes, any sum of HAPFLOW_AXIS_..., come in on the other side. [main]
+ * Errors: HANDLE, BUSY, FAULTED, UNSUPPORTED (another bit). */
+HAPFLOW_API hapflow_result hapflow_scene_set_periodic(hapflow_scene scene, uint32_t axes);
+
 /* Sets the height of the ground, m, within 100. [main] With `height` null there is none.
  * Errors: HANDLE, BUSY, FAULTED, VALUE, NOT_FINITE. */
 HAPFLOW_API hapflow_result hapflow_scene_set_ground(hapflow_scene scene, const double* height);
@@ -184,6 +195,40 @@ HAPFLOW_API hapflow_result hapflow_tool_config_init(hapflow_tool_config* config,
 /* Adds a tool to the first, which every scene has; `index` becomes its number, from 1, and may be null. [main]
  * Errors: as hapflow_scene_add_source. */
 HAPFLOW_API hapflow_result hapflow_scene_add_tool(hapflow_scene scene, const hapflow_tool_config* config,
+                                                  uint32_t* index);
+
+#define HAPFLOW_KIND_BODY_CONFIG 6u
+
+/* A rigid body that goes where fluid and gravity take it; walls, obstacles, tools and other bodies stop it. What its
+ * fields may be, the settings body.NAME.* say. */
+typedef struct hapflow_body_config {
+    uint32_t kind; /* HAPFLOW_KIND_BODY_CONFIG */
+    uint32_t size; /* sizeof(hapflow_body_config) */
+    const void* next; /* null */
+    const char* name; /* by which settings address it; null: its number */
+    uint32_t shape; /* HAPFLOW_SHAPE_... */
+    uint32_t reserved; /* 0 */
+    double radius; /* of all but a box and a mesh, m */
+    double thickness; /* of a disc, m */
+    double density; /* its mean density, kg/m3 */
+    double position[3]; /* where it starts, m */
+    double length; /* of a cylinder or a capsule, m */
+    double extent[3]; /* edges of a box, m */
+    double scale; /* metres a unit of `file` */
+    const char* file; /* of a mesh, Wavefront OBJ or STL; null: none */
+    const void* mesh; /* null */
+} hapflow_body_config;
+#if UINTPTR_MAX > 0xffffffffu
+HAPFLOW_ASSERT_SIZE(hapflow_body_config, 136);
+#endif
+
+/* Fills `config` with the defaults: a ball of 20 mm radius in the origin, half as dense as water; `size` is sizeof
+ * *config. [any] Errors: NULL, STRUCT. */
+HAPFLOW_API hapflow_result hapflow_body_config_init(hapflow_body_config* config, uint32_t size);
+
+/* Adds a body; `index` becomes its number, as hapflow_session_body_report counts them, and may be null. [main]
+ * Errors: as hapflow_scene_add_source. */
+HAPFLOW_API hapflow_result hapflow_scene_add_body(hapflow_scene scene, const hapflow_body_config* config,
                                                   uint32_t* index);
 
 /* Adds a box filled with fluid at the start, by its corners, m, each coordinate within 100; `index` becomes its number,

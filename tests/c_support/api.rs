@@ -240,6 +240,40 @@ pub struct ToolConfig {
     pub mesh: *const c_void,
 }
 
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct BodyConfig {
+    pub kind: u32,
+    pub size: u32,
+    pub next: *const c_void,
+    pub name: *const c_char,
+    pub shape: u32,
+    pub reserved: u32,
+    pub radius: f64,
+    pub thickness: f64,
+    pub density: f64,
+    pub position: [f64; 3],
+    pub length: f64,
+    pub extent: [f64; 3],
+    pub scale: f64,
+    pub file: *const c_char,
+    pub mesh: *const c_void,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct BodyReport {
+    pub size: u32,
+    pub reserved: u32,
+    pub position: [f64; 3],
+    pub orientation: [f64; 4],
+    pub velocity: [f64; 3],
+    pub angular_velocity: [f64; 3],
+    pub pressure_force: [f64; 3],
+    pub viscous_force: [f64; 3],
+    pub torque: [f64; 3],
+}
+
 /// A corner of a box.
 type Corner = *const [f64; 3];
 
@@ -308,6 +342,7 @@ functions! {
     scene_set_vector: fn(Scene, *const c_char, *const [f64; 3]) -> i32;
     scene_set_text: fn(Scene, *const c_char, *const c_char) -> i32;
     scene_set_bounds: fn(Scene, Corner, Corner) -> i32;
+    scene_set_periodic: fn(Scene, u32) -> i32;
     scene_set_ground: fn(Scene, *const f64) -> i32;
     scene_set_container: fn(Scene, Corner, Corner) -> i32;
     source_config_init: fn(*mut SourceConfig, u32) -> i32;
@@ -316,6 +351,8 @@ functions! {
     scene_add_obstacle: fn(Scene, *const ObstacleConfig, *mut u32) -> i32;
     tool_config_init: fn(*mut ToolConfig, u32) -> i32;
     scene_add_tool: fn(Scene, *const ToolConfig, *mut u32) -> i32;
+    body_config_init: fn(*mut BodyConfig, u32) -> i32;
+    scene_add_body: fn(Scene, *const BodyConfig, *mut u32) -> i32;
     scene_add_pool: fn(Scene, Corner, Corner, *mut u32) -> i32;
     scene_add_sink: fn(Scene, Corner, Corner, *mut u32) -> i32;
     scene_add_change: fn(Scene, f64, *const c_char) -> i32;
@@ -337,6 +374,8 @@ functions! {
     obstacle_count: fn(Session, *mut u32) -> i32;
     obstacle_move: fn(Session, u32, *const [f64; 3], *const [f64; 4]) -> i32;
     obstacle_publish: fn(Session) -> i32;
+    body_report_init: fn(*mut BodyReport, u32) -> i32;
+    session_body_report: fn(Session, u32, u32, *mut BodyReport) -> i32;
     fluid_particles: fn(Session, *mut f32, usize, *mut usize) -> i32;
     session_particles: fn(Session, *mut f32, usize, *mut usize) -> i32;
 }

@@ -7,8 +7,9 @@ pub mod header;
 mod random;
 
 pub use api::{
-    Api, Contact, Device, DeviceConfig, DeviceInfo, ObstacleConfig, Report, Scene, SceneInfo, ServoPace,
-    Session, SessionConfig, SettingInfo, SourceConfig, ToolConfig, ToolState, Wrench, made, shown,
+    Api, BodyConfig, BodyReport, Contact, Device, DeviceConfig, DeviceInfo, ObstacleConfig, Report, Scene,
+    SceneInfo, ServoPace, Session, SessionConfig, SettingInfo, SourceConfig, ToolConfig, ToolState, Wrench,
+    made, shown,
 };
 pub use build::{Variant, compile, library, root, scratch};
 pub use random::Random;

@@ -46,6 +46,14 @@ namespace hapflow {
 using Vec3 = std::array<double, 3>;
 /// The newest tick, and the newest fluid frame: see hapflow_report.
 using Report = hapflow_report;
+using BodyReport = hapflow_body_report; ///< A body at the end of the newest fluid frame, and the fluid's load on it.
+
+/// Which list of a scene a body is in.
+enum class BodyList : std::uint32_t {
+    tools = HAPFLOW_BODY_TOOL,         ///< Tools, the first first.
+    obstacles = HAPFLOW_BODY_OBSTACLE, ///< Obstacles.
+    free = HAPFLOW_BODY_FREE,          ///< What floats or sinks.
+};
 /// A scene that the library brings along: see hapflow_scene_info. Its texts last as long as the process.
 using SceneInfo = hapflow_scene_info;
 /// A haptic device that the library knows: see hapflow_device_info. Its texts last as long as the process.
@@ -302,7 +310,7 @@ struct Obstacle {
     Vec3 position{};             ///< Until the host moves it, m.
     double length = 0.04;        ///< Of a cylinder or a capsule, m.
     Vec3 extent{{0.03, 0.03, 0.03}}; ///< Edges of a box, m.
-    std::string file;            ///< Of a mesh, Wavefront OBJ or STL.
+    std::string file{};          ///< Of a mesh, Wavefront OBJ or STL.
     double scale = 1;            ///< Metres a unit of that file.
 };
 
@@ -320,7 +328,22 @@ struct Tool {
     double solid_damping = 0;        ///< How much they slow it, N s/m.
     double length = 0.04;            ///< Of a cylinder or a capsule, m.
     Vec3 extent{{0.03, 0.03, 0.03}}; ///< Edges of a box, m.
-    std::string file;                ///< Of a mesh, Wavefront OBJ or STL.
+    std::string file{};              ///< Of a mesh, Wavefront OBJ or STL.
+    double scale = 1;                ///< Metres a unit of that file.
+};
+
+/// A rigid body that goes where fluid and gravity take it; walls, obstacles, tools and other bodies stop it. By default a
+/// ball of 20 mm radius in the origin, half as dense as water.
+struct Body {
+    std::string name;                ///< By which settings address it; empty: its number.
+    Shape shape = Shape::sphere;     ///< Its shape.
+    double radius = 0.02;            ///< Of all but a box and a mesh, m.
+    double thickness = 0.01;         ///< Of a disc, m.
+    double density = 500;            ///< Its mean density, kg/m3.
+    Vec3 position{};                 ///< Where it starts, m.
+    double length = 0.04;            ///< Of a cylinder or a capsule, m.
+    Vec3 extent{{0.03, 0.03, 0.03}}; ///< Edges of a box, m.
+    std::string file{};              ///< Of a mesh, Wavefront OBJ or STL.
     double scale = 1;                ///< Metres a unit of that file.
 };
 
@@ -377,6 +400,12 @@ public:
         detail::check_main(hapflow_scene_set_bounds(scene_, box.min.data(), box.max.data()), "set_bounds");
     }
 
+    /// Lets particles that leave the bounds along these axes come in on the other side. [main]
+    void set_periodic(bool x, bool y, bool z) {
+        const int axes = (x ? int{HAPFLOW_AXIS_X} : 0) | (y ? int{HAPFLOW_AXIS_Y} : 0) | (z ? int{HAPFLOW_AXIS_Z} : 0);
+        detail::check_main(hapflow_scene_set_periodic(scene_, static_cast<std::uint32_t>(axes)), "set_periodic");
+    }
+
     /// Sets the height of the ground, m. [main]
     void set_ground(double height) { detail::check_main(hapflow_scene_set_ground(scene_, &height), "set_ground"); }
 
@@ -418,6 +447,18 @@ public:
         detail::copy(obstacle.position, c.position);
         std::uint32_t index = 0;
         detail::check_main(hapflow_scene_add_obstacle(scene_, &c, &index), "add obstacle");
+        return index;
+    }
+
+    /// Adds a body, and gives its number. [main]
+    std::uint32_t add(const Body& body) {
+        auto c = detail::made(hapflow_body_config_init);
+        c.name = detail::c_text_or_null(body.name, "add body");
+        form(body, c, "add body");
+        c.density = body.density;
+        detail::copy(body.position, c.position);
+        std::uint32_t index = 0;
+        detail::check_main(hapflow_scene_add_body(scene_, &c, &index), "add body");
         return index;
     }
 
@@ -913,6 +954,14 @@ public:
     [[nodiscard]] Report report(std::uint32_t tool = 0) const {
         auto report = detail::made(hapflow_report_init);
         detail::check_main(hapflow_session_report_of(session_, tool, &report), "report");
+        return report;
+    }
+
+    /// Reads a body as the newest fluid frame left it. [main] Never waits for the fluid.
+    [[nodiscard]] BodyReport body_report(BodyList which, std::uint32_t index) const {
+        auto report = detail::made(hapflow_body_report_init);
+        const auto list = static_cast<std::uint32_t>(which);
+        detail::check_main(hapflow_session_body_report(session_, list, index, &report), "body_report");
         return report;
     }
 

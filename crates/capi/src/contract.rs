@@ -9,9 +9,9 @@ use crate::code::Code;
 use crate::generated as c;
 use crate::handle::{DeviceHandle, Handle, Id, SceneHandle};
 use crate::{
-    build_info, catalog, config, contact, device, device_config, extension, fluid, library, log, obstacle,
-    obstacle_config, recording, report, scene, servo, servo_pace, session, setting_info, source_config,
-    tool_config, tool_state,
+    body, body_config, build_info, catalog, config, contact, device, device_config, extension, fluid,
+    library, log, obstacle, obstacle_config, recording, report, scene, servo, servo_pace, session,
+    setting_info, source_config, tool_config, tool_state,
 };
 use std::ffi::{c_char, c_void};
 
@@ -55,6 +55,8 @@ targets! {
     source_config::SourceConfig = c::hapflow_source_config,
     obstacle_config::ObstacleConfig = c::hapflow_obstacle_config,
     tool_config::ToolConfig = c::hapflow_tool_config,
+    body_config::BodyConfig = c::hapflow_body_config,
+    body::BodyRecord = c::hapflow_body_report,
     device_config::DeviceConfig = c::hapflow_device_config,
     servo_pace::ServoPaceRecord = c::hapflow_servo_pace,
     config::SessionConfig = c::hapflow_session_config,
@@ -154,6 +156,7 @@ functions! {
     scene::hapflow_scene_set_vector(_, _, _);
     scene::hapflow_scene_set_text(_, _, _);
     scene::hapflow_scene_set_bounds(_, _, _);
+    scene::hapflow_scene_set_periodic(_, _);
     scene::hapflow_scene_set_ground(_, _);
     scene::hapflow_scene_set_container(_, _, _);
     source_config::hapflow_source_config_init(_, _);
@@ -162,6 +165,8 @@ functions! {
     scene::hapflow_scene_add_obstacle(_, _, _);
     tool_config::hapflow_tool_config_init(_, _);
     scene::hapflow_scene_add_tool(_, _, _);
+    body_config::hapflow_body_config_init(_, _);
+    scene::hapflow_scene_add_body(_, _, _);
     scene::hapflow_scene_add_pool(_, _, _, _);
     scene::hapflow_scene_add_sink(_, _, _, _);
     scene::hapflow_scene_add_change(_, _, _);
@@ -202,6 +207,8 @@ functions! {
     obstacle::hapflow_obstacle_count(_, _);
     obstacle::hapflow_obstacle_move(_, _, _, _);
     obstacle::hapflow_obstacle_publish(_);
+    body::hapflow_body_report_init(_, _);
+    body::hapflow_session_body_report(_, _, _, _);
     report::hapflow_report_init(_, _);
     session::hapflow_session_report(_, _);
     session::hapflow_session_report_of(_, _, _);

@@ -6,6 +6,7 @@ pub const HAPFLOW_MAX_SCENES: u32 = 64;
 pub const HAPFLOW_KIND_SOURCE_CONFIG: u32 = 3;
 pub const HAPFLOW_KIND_OBSTACLE_CONFIG: u32 = 4;
 pub const HAPFLOW_KIND_TOOL_CONFIG: u32 = 5;
+pub const HAPFLOW_KIND_BODY_CONFIG: u32 = 6;
 pub const HAPFLOW_MAX_DEVICES: u32 = 64;
 pub const HAPFLOW_KIND_DEVICE_CONFIG: u32 = 2;
 pub const HAPFLOW_MAX_SESSIONS: u32 = 64;
@@ -93,13 +94,17 @@ const _: () = {
         "Offset of field: hapflow_scene::id",
     ][::core::mem::offset_of!(hapflow_scene, id) - 0usize];
 };
-pub const HAPFLOW_SHAPE_SPHERE: _bindgen_ty_2 = 1;
-pub const HAPFLOW_SHAPE_DISC: _bindgen_ty_2 = 2;
-pub const HAPFLOW_SHAPE_CYLINDER: _bindgen_ty_2 = 3;
-pub const HAPFLOW_SHAPE_CAPSULE: _bindgen_ty_2 = 4;
-pub const HAPFLOW_SHAPE_BOX: _bindgen_ty_2 = 5;
-pub const HAPFLOW_SHAPE_MESH: _bindgen_ty_2 = 6;
+pub const HAPFLOW_AXIS_X: _bindgen_ty_2 = 1;
+pub const HAPFLOW_AXIS_Y: _bindgen_ty_2 = 2;
+pub const HAPFLOW_AXIS_Z: _bindgen_ty_2 = 4;
 pub type _bindgen_ty_2 = ::core::ffi::c_uint;
+pub const HAPFLOW_SHAPE_SPHERE: _bindgen_ty_3 = 1;
+pub const HAPFLOW_SHAPE_DISC: _bindgen_ty_3 = 2;
+pub const HAPFLOW_SHAPE_CYLINDER: _bindgen_ty_3 = 3;
+pub const HAPFLOW_SHAPE_CAPSULE: _bindgen_ty_3 = 4;
+pub const HAPFLOW_SHAPE_BOX: _bindgen_ty_3 = 5;
+pub const HAPFLOW_SHAPE_MESH: _bindgen_ty_3 = 6;
+pub type _bindgen_ty_3 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_source_config {
@@ -324,6 +329,80 @@ const _: () = {
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
+pub struct hapflow_body_config {
+    pub kind: u32,
+    pub size: u32,
+    pub next: *const ::core::ffi::c_void,
+    pub name: *const ::core::ffi::c_char,
+    pub shape: u32,
+    pub reserved: u32,
+    pub radius: f64,
+    pub thickness: f64,
+    pub density: f64,
+    pub position: [f64; 3usize],
+    pub length: f64,
+    pub extent: [f64; 3usize],
+    pub scale: f64,
+    pub file: *const ::core::ffi::c_char,
+    pub mesh: *const ::core::ffi::c_void,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_body_config",
+    ][::core::mem::size_of::<hapflow_body_config>() - 136usize];
+    [
+        "Alignment of hapflow_body_config",
+    ][::core::mem::align_of::<hapflow_body_config>() - 8usize];
+    [
+        "Offset of field: hapflow_body_config::kind",
+    ][::core::mem::offset_of!(hapflow_body_config, kind) - 0usize];
+    [
+        "Offset of field: hapflow_body_config::size",
+    ][::core::mem::offset_of!(hapflow_body_config, size) - 4usize];
+    [
+        "Offset of field: hapflow_body_config::next",
+    ][::core::mem::offset_of!(hapflow_body_config, next) - 8usize];
+    [
+        "Offset of field: hapflow_body_config::name",
+    ][::core::mem::offset_of!(hapflow_body_config, name) - 16usize];
+    [
+        "Offset of field: hapflow_body_config::shape",
+    ][::core::mem::offset_of!(hapflow_body_config, shape) - 24usize];
+    [
+        "Offset of field: hapflow_body_config::reserved",
+    ][::core::mem::offset_of!(hapflow_body_config, reserved) - 28usize];
+    [
+        "Offset of field: hapflow_body_config::radius",
+    ][::core::mem::offset_of!(hapflow_body_config, radius) - 32usize];
+    [
+        "Offset of field: hapflow_body_config::thickness",
+    ][::core::mem::offset_of!(hapflow_body_config, thickness) - 40usize];
+    [
+        "Offset of field: hapflow_body_config::density",
+    ][::core::mem::offset_of!(hapflow_body_config, density) - 48usize];
+    [
+        "Offset of field: hapflow_body_config::position",
+    ][::core::mem::offset_of!(hapflow_body_config, position) - 56usize];
+    [
+        "Offset of field: hapflow_body_config::length",
+    ][::core::mem::offset_of!(hapflow_body_config, length) - 80usize];
+    [
+        "Offset of field: hapflow_body_config::extent",
+    ][::core::mem::offset_of!(hapflow_body_config, extent) - 88usize];
+    [
+        "Offset of field: hapflow_body_config::scale",
+    ][::core::mem::offset_of!(hapflow_body_config, scale) - 112usize];
+    [
+        "Offset of field: hapflow_body_config::file",
+    ][::core::mem::offset_of!(hapflow_body_config, file) - 120usize];
+    [
+        "Offset of field: hapflow_body_config::mesh",
+    ][::core::mem::offset_of!(hapflow_body_config, mesh) - 128usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
 pub struct hapflow_tool_state {
     pub size: u32,
     pub tool: u32,
@@ -512,13 +591,13 @@ const _: () = {
         "Offset of field: hapflow_session::id",
     ][::core::mem::offset_of!(hapflow_session, id) - 0usize];
 };
-pub const HAPFLOW_DRIVE_HOST: _bindgen_ty_3 = 0;
-pub const HAPFLOW_DRIVE_OWNED: _bindgen_ty_3 = 1;
-pub type _bindgen_ty_3 = ::core::ffi::c_uint;
-pub const HAPFLOW_LOG_ERROR: _bindgen_ty_4 = 1;
-pub const HAPFLOW_LOG_WARNING: _bindgen_ty_4 = 2;
-pub const HAPFLOW_LOG_INFO: _bindgen_ty_4 = 3;
+pub const HAPFLOW_DRIVE_HOST: _bindgen_ty_4 = 0;
+pub const HAPFLOW_DRIVE_OWNED: _bindgen_ty_4 = 1;
 pub type _bindgen_ty_4 = ::core::ffi::c_uint;
+pub const HAPFLOW_LOG_ERROR: _bindgen_ty_5 = 1;
+pub const HAPFLOW_LOG_WARNING: _bindgen_ty_5 = 2;
+pub const HAPFLOW_LOG_INFO: _bindgen_ty_5 = 3;
+pub type _bindgen_ty_5 = ::core::ffi::c_uint;
 pub type hapflow_log_function = ::core::option::Option<
     unsafe extern "C" fn(
         level: u32,
@@ -608,13 +687,13 @@ const _: () = {
         "Offset of field: hapflow_session_config::built",
     ][::core::mem::offset_of!(hapflow_session_config, built) - 96usize];
 };
-pub const HAPFLOW_SETTING_NUMBER: _bindgen_ty_5 = 1;
-pub const HAPFLOW_SETTING_INTEGER: _bindgen_ty_5 = 2;
-pub const HAPFLOW_SETTING_SWITCH: _bindgen_ty_5 = 3;
-pub const HAPFLOW_SETTING_CHOICE: _bindgen_ty_5 = 4;
-pub const HAPFLOW_SETTING_TEXT: _bindgen_ty_5 = 5;
-pub const HAPFLOW_SETTING_VECTOR: _bindgen_ty_5 = 6;
-pub type _bindgen_ty_5 = ::core::ffi::c_uint;
+pub const HAPFLOW_SETTING_NUMBER: _bindgen_ty_6 = 1;
+pub const HAPFLOW_SETTING_INTEGER: _bindgen_ty_6 = 2;
+pub const HAPFLOW_SETTING_SWITCH: _bindgen_ty_6 = 3;
+pub const HAPFLOW_SETTING_CHOICE: _bindgen_ty_6 = 4;
+pub const HAPFLOW_SETTING_TEXT: _bindgen_ty_6 = 5;
+pub const HAPFLOW_SETTING_VECTOR: _bindgen_ty_6 = 6;
+pub type _bindgen_ty_6 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_setting_info {
@@ -677,10 +756,10 @@ const _: () = {
         "Offset of field: hapflow_setting_info::usual",
     ][::core::mem::offset_of!(hapflow_setting_info, usual) - 72usize];
 };
-pub const HAPFLOW_PRIORITY_NOT_ASKED: _bindgen_ty_6 = 0;
-pub const HAPFLOW_PRIORITY_GRANTED: _bindgen_ty_6 = 1;
-pub const HAPFLOW_PRIORITY_REFUSED: _bindgen_ty_6 = 2;
-pub type _bindgen_ty_6 = ::core::ffi::c_uint;
+pub const HAPFLOW_PRIORITY_NOT_ASKED: _bindgen_ty_7 = 0;
+pub const HAPFLOW_PRIORITY_GRANTED: _bindgen_ty_7 = 1;
+pub const HAPFLOW_PRIORITY_REFUSED: _bindgen_ty_7 = 2;
+pub type _bindgen_ty_7 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_servo_pace {
@@ -739,18 +818,72 @@ const _: () = {
         "Offset of field: hapflow_servo_pace::device",
     ][::core::mem::offset_of!(hapflow_servo_pace, device) - 64usize];
 };
-pub const HAPFLOW_FAULT_INPUT: _bindgen_ty_7 = 1;
-pub const HAPFLOW_FAULT_FORCE: _bindgen_ty_7 = 2;
-pub const HAPFLOW_FAULT_PANIC: _bindgen_ty_7 = 4;
-pub const HAPFLOW_FAULT_DEVICE_LOST: _bindgen_ty_7 = 16;
-pub const HAPFLOW_FAULT_EMERGENCY_STOP: _bindgen_ty_7 = 32;
-pub const HAPFLOW_FAULT_FLUID: _bindgen_ty_7 = 128;
-pub const HAPFLOW_FAULT_STALE: _bindgen_ty_7 = 8;
-pub const HAPFLOW_FAULT_PATH_OVERFLOW: _bindgen_ty_7 = 64;
-pub const HAPFLOW_FAULT_LATE_TICK: _bindgen_ty_7 = 256;
-pub const HAPFLOW_FAULT_FORCE_LIMITED: _bindgen_ty_7 = 512;
-pub const HAPFLOW_FAULT_SLEW_LIMITED: _bindgen_ty_7 = 1024;
-pub type _bindgen_ty_7 = ::core::ffi::c_uint;
+pub const HAPFLOW_BODY_TOOL: _bindgen_ty_8 = 1;
+pub const HAPFLOW_BODY_OBSTACLE: _bindgen_ty_8 = 2;
+pub const HAPFLOW_BODY_FREE: _bindgen_ty_8 = 3;
+pub type _bindgen_ty_8 = ::core::ffi::c_uint;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_body_report {
+    pub size: u32,
+    pub reserved: u32,
+    pub position: [f64; 3usize],
+    pub orientation: [f64; 4usize],
+    pub velocity: [f64; 3usize],
+    pub angular_velocity: [f64; 3usize],
+    pub pressure_force: [f64; 3usize],
+    pub viscous_force: [f64; 3usize],
+    pub torque: [f64; 3usize],
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_body_report",
+    ][::core::mem::size_of::<hapflow_body_report>() - 184usize];
+    [
+        "Alignment of hapflow_body_report",
+    ][::core::mem::align_of::<hapflow_body_report>() - 8usize];
+    [
+        "Offset of field: hapflow_body_report::size",
+    ][::core::mem::offset_of!(hapflow_body_report, size) - 0usize];
+    [
+        "Offset of field: hapflow_body_report::reserved",
+    ][::core::mem::offset_of!(hapflow_body_report, reserved) - 4usize];
+    [
+        "Offset of field: hapflow_body_report::position",
+    ][::core::mem::offset_of!(hapflow_body_report, position) - 8usize];
+    [
+        "Offset of field: hapflow_body_report::orientation",
+    ][::core::mem::offset_of!(hapflow_body_report, orientation) - 32usize];
+    [
+        "Offset of field: hapflow_body_report::velocity",
+    ][::core::mem::offset_of!(hapflow_body_report, velocity) - 64usize];
+    [
+        "Offset of field: hapflow_body_report::angular_velocity",
+    ][::core::mem::offset_of!(hapflow_body_report, angular_velocity) - 88usize];
+    [
+        "Offset of field: hapflow_body_report::pressure_force",
+    ][::core::mem::offset_of!(hapflow_body_report, pressure_force) - 112usize];
+    [
+        "Offset of field: hapflow_body_report::viscous_force",
+    ][::core::mem::offset_of!(hapflow_body_report, viscous_force) - 136usize];
+    [
+        "Offset of field: hapflow_body_report::torque",
+    ][::core::mem::offset_of!(hapflow_body_report, torque) - 160usize];
+};
+pub const HAPFLOW_FAULT_INPUT: _bindgen_ty_9 = 1;
+pub const HAPFLOW_FAULT_FORCE: _bindgen_ty_9 = 2;
+pub const HAPFLOW_FAULT_PANIC: _bindgen_ty_9 = 4;
+pub const HAPFLOW_FAULT_DEVICE_LOST: _bindgen_ty_9 = 16;
+pub const HAPFLOW_FAULT_EMERGENCY_STOP: _bindgen_ty_9 = 32;
+pub const HAPFLOW_FAULT_FLUID: _bindgen_ty_9 = 128;
+pub const HAPFLOW_FAULT_STALE: _bindgen_ty_9 = 8;
+pub const HAPFLOW_FAULT_PATH_OVERFLOW: _bindgen_ty_9 = 64;
+pub const HAPFLOW_FAULT_LATE_TICK: _bindgen_ty_9 = 256;
+pub const HAPFLOW_FAULT_FORCE_LIMITED: _bindgen_ty_9 = 512;
+pub const HAPFLOW_FAULT_SLEW_LIMITED: _bindgen_ty_9 = 1024;
+pub type _bindgen_ty_9 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_report {
@@ -941,10 +1074,10 @@ const _: () = {
         "Offset of field: hapflow_log_extension::poll",
     ][::core::mem::offset_of!(hapflow_log_extension, poll) - 8usize];
 };
-pub const HAPFLOW_SOLID_GROUND: _bindgen_ty_8 = 1;
-pub const HAPFLOW_SOLID_CONTAINER: _bindgen_ty_8 = 2;
-pub const HAPFLOW_SOLID_OBSTACLE: _bindgen_ty_8 = 3;
-pub type _bindgen_ty_8 = ::core::ffi::c_uint;
+pub const HAPFLOW_SOLID_GROUND: _bindgen_ty_10 = 1;
+pub const HAPFLOW_SOLID_CONTAINER: _bindgen_ty_10 = 2;
+pub const HAPFLOW_SOLID_OBSTACLE: _bindgen_ty_10 = 3;
+pub type _bindgen_ty_10 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_contact {
@@ -1039,6 +1172,7 @@ unsafe extern "C" {
         min: *const f64,
         max: *const f64,
     ) -> hapflow_result;
+    pub fn hapflow_scene_set_periodic(scene: hapflow_scene, axes: u32) -> hapflow_result;
     pub fn hapflow_scene_set_ground(
         scene: hapflow_scene,
         height: *const f64,
@@ -1073,6 +1207,15 @@ unsafe extern "C" {
     pub fn hapflow_scene_add_tool(
         scene: hapflow_scene,
         config: *const hapflow_tool_config,
+        index: *mut u32,
+    ) -> hapflow_result;
+    pub fn hapflow_body_config_init(
+        config: *mut hapflow_body_config,
+        size: u32,
+    ) -> hapflow_result;
+    pub fn hapflow_scene_add_body(
+        scene: hapflow_scene,
+        config: *const hapflow_body_config,
         index: *mut u32,
     ) -> hapflow_result;
     pub fn hapflow_scene_add_pool(
@@ -1234,6 +1377,16 @@ unsafe extern "C" {
         orientation: *const f64,
     ) -> hapflow_result;
     pub fn hapflow_obstacle_publish(session: hapflow_session) -> hapflow_result;
+    pub fn hapflow_body_report_init(
+        report: *mut hapflow_body_report,
+        size: u32,
+    ) -> hapflow_result;
+    pub fn hapflow_session_body_report(
+        session: hapflow_session,
+        which: u32,
+        index: u32,
+        report: *mut hapflow_body_report,
+    ) -> hapflow_result;
     pub fn hapflow_report_init(report: *mut hapflow_report, size: u32) -> hapflow_result;
     pub fn hapflow_session_report(
         session: hapflow_session,

@@ -26,6 +26,8 @@
 // What only an absent part would use is left out by the linker.
 #![cfg_attr(not(all(feature = "device", feature = "log")), allow(dead_code))]
 
+mod body;
+mod body_config;
 mod build_info;
 mod caller;
 mod catalog;

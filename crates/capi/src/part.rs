@@ -88,10 +88,11 @@ pub fn null(pointer: *const c_void) -> Result<(), Code> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body_config::BodyConfig;
     use crate::obstacle_config::ObstacleConfig;
     use crate::source_config::SourceConfig;
     use crate::tool_config::ToolConfig;
-    use hapflow_engine::{Obstacle, ToolSettings};
+    use hapflow_engine::{FreeBody, Obstacle, ToolSettings};
     use hapflow_fluid::Source;
 
     #[test]
@@ -100,6 +101,8 @@ mod tests {
         assert_eq!(named(SourceConfig::DEFAULT.thing()), Source { name: String::new(), ..Source::default() });
         let obstacle = ObstacleConfig::DEFAULT.thing().map_err(|f| f.text).unwrap();
         assert_eq!(obstacle, Obstacle { name: String::new(), ..Obstacle::default() });
+        let body = BodyConfig::DEFAULT.thing().map_err(|f| f.text).unwrap();
+        assert_eq!(body, FreeBody { name: String::new(), ..FreeBody::default() });
         let tool = ToolConfig::DEFAULT.thing().map_err(|f| f.text).unwrap();
         assert_eq!(tool, ToolSettings { name: String::new(), ..ToolSettings::default() });
     }

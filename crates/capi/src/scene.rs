@@ -1,8 +1,10 @@
 //! The functions of a scene that is built by calls.
 
+use crate::body_config::BodyConfig;
 use crate::caller::{Buffer, In, Out, Text};
 use crate::code::{Code, Failure};
 use crate::fence::fence_main;
+use crate::generated as c;
 use crate::handle::SceneHandle;
 use crate::hooks;
 use crate::obstacle_config::ObstacleConfig;
@@ -135,6 +137,20 @@ pub extern "C" fn hapflow_scene_set_bounds(scene: SceneHandle, min: Corner, max:
 
 /// See the header.
 #[unsafe(no_mangle)]
+pub extern "C" fn hapflow_scene_set_periodic(scene: SceneHandle, axes: u32) -> Code {
+    change_scene(scene, |scene| {
+        let known = [c::HAPFLOW_AXIS_X, c::HAPFLOW_AXIS_Y, c::HAPFLOW_AXIS_Z];
+        if axes & !known.iter().sum::<u32>() != 0 {
+            let text = format!("axes = {axes}: must be a sum of HAPFLOW_AXIS_X, _Y and _Z, 0 to 7");
+            return Err(Failure { code: Code::ERROR_UNSUPPORTED, text });
+        }
+        scene.periodic = known.map(|axis| axes & axis != 0);
+        Ok(())
+    })
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
 pub extern "C" fn hapflow_scene_set_ground(scene: SceneHandle, height: In<f64>) -> Code {
     change_scene(scene, |scene| {
         let height = height.if_given();
@@ -184,6 +200,16 @@ pub extern "C" fn hapflow_scene_add_tool(
     index: Out<u32>,
 ) -> Code {
     add(scene, config, index, Scene::add_tool)
+}
+
+/// See the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn hapflow_scene_add_body(
+    scene: SceneHandle,
+    config: In<BodyConfig>,
+    index: Out<u32>,
+) -> Code {
+    add(scene, config, index, Scene::add_body)
 }
 
 /// See the header.

@@ -17,7 +17,9 @@ use crate::setting_info::{Names, Panel, SettingInfo, plain};
 use crate::table::{LIBRARY, Parts};
 use glam::DVec3;
 use hapflow_devices::HapticDevice;
-use hapflow_engine::{Control, Drive, Scene, Session, SessionOptions, Value, open_device};
+use hapflow_engine::{
+    BodyList, BodyReport, Control, Drive, Scene, Session, SessionOptions, Value, open_device,
+};
 use hapflow_fluid::ParticleView;
 use hapflow_haptics::{FaultSet, Touching};
 use hapflow_realtime::Faultable;
@@ -74,6 +76,12 @@ impl MainSide {
     /// What a tool touches.
     pub fn touching(&mut self, tool: u32) -> Result<Touching, Failure> {
         self.session.touching_of(tool as usize).ok_or_else(|| self.no_tool(tool))
+    }
+
+    /// A body of one of the scene's lists, whose things are called `what`.
+    pub fn body(&mut self, (list, what): (BodyList, &str), index: u32) -> Result<BodyReport, Failure> {
+        let reports = self.session.body_reports_of(list);
+        reports.get(index as usize).copied().ok_or_else(|| Failure::index(what, index, reports.len() as u32))
     }
 
     fn no_tool(&self, tool: u32) -> Failure {

@@ -5,7 +5,9 @@ use crate::code::{Code, Failure};
 use crate::contract::as_in_header;
 use crate::fence::fence;
 use crate::generated as c;
-use hapflow_engine::settings::{Kind, OBSTACLE_SETTINGS, SETTINGS, SOURCE_SETTINGS, Setting, TOOL_SETTINGS};
+use hapflow_engine::settings::{
+    BODY_SETTINGS, Kind, OBSTACLE_SETTINGS, SETTINGS, SOURCE_SETTINGS, Setting, TOOL_SETTINGS,
+};
 use hapflow_engine::{Scene, Value};
 
 /// `hapflow_setting_info`.
@@ -148,6 +150,7 @@ pub struct Names {
     tools: Vec<String>,
     sources: Vec<String>,
     obstacles: Vec<String>,
+    bodies: Vec<String>,
 }
 
 impl Names {
@@ -156,6 +159,7 @@ impl Names {
             tools: scene.more_tools.iter().map(|t| t.name.clone()).collect(),
             sources: scene.sources.iter().map(|s| s.name.clone()).collect(),
             obstacles: scene.obstacles.iter().map(|o| o.name.clone()).collect(),
+            bodies: scene.bodies.iter().map(|b| b.name.clone()).collect(),
         }
     }
 }
@@ -176,6 +180,9 @@ impl Panel {
         }
         for name in &names.obstacles {
             all.extend(entries(OBSTACLE_SETTINGS, "obstacle", name));
+        }
+        for name in &names.bodies {
+            all.extend(entries(BODY_SETTINGS, "body", name));
         }
         Self(all)
     }

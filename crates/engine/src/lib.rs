@@ -54,7 +54,7 @@ pub use scene::{
 pub use scene_device::open_device;
 pub use scene_file::{parse, write};
 pub use servo::{ServoReport, ServoUnit};
-pub use session::{Drive, Session, SessionOptions};
+pub use session::{BodyList, Drive, Session, SessionOptions};
 pub use threads::{FluidPace, SERVO_PRIORITY, ServoPace};
 pub use tick_times::TickTimes;
 pub use value::Value;

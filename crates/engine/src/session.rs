@@ -70,6 +70,17 @@ impl SessionOptions {
     }
 }
 
+/// Bodies that a scene lists together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyList {
+    /// Tools, the first first.
+    Tools,
+    /// Obstacles.
+    Obstacles,
+    /// What floats or sinks.
+    Free,
+}
+
 /// Threads that the session owns, if any.
 #[derive(Default)]
 struct Owned {
@@ -93,6 +104,8 @@ pub struct Session {
     tools: Vec<ToolEnds>,
     fluid_report: LatestReader<FluidReport>,
     bodies: LatestReader<Vec<BodyReport>>,
+    /// How many of them are obstacles.
+    obstacles: usize,
     fluid: Option<FluidUnit>,
     mover: Option<ObstacleMover>,
     owned: Owned,
@@ -148,8 +161,19 @@ impl Session {
             newest: FluidReport::default(),
         };
         let (fluid, mover, owned) = (Some(fluid), Some(mover), Owned::default());
-        let mut session =
-            Self { shared, control, tools, fluid_report, bodies, fluid, mover, owned, recorder: None };
+        let obstacles = scene.obstacles.len();
+        let mut session = Self {
+            shared,
+            control,
+            tools,
+            fluid_report,
+            bodies,
+            obstacles,
+            fluid,
+            mover,
+            owned,
+            recorder: None,
+        };
         session.start(options)?;
         Ok(session)
     }
@@ -313,6 +337,17 @@ impl Session {
     pub fn body_reports(&mut self) -> &[BodyReport] {
         self.bodies.update();
         self.bodies.get()
+    }
+
+    /// Those of one list.
+    pub fn body_reports_of(&mut self, list: BodyList) -> &[BodyReport] {
+        let (tools, obstacles) = (self.tools.len(), self.obstacles);
+        let all = self.body_reports();
+        match list {
+            BodyList::Tools => &all[..tools],
+            BodyList::Obstacles => &all[tools..tools + obstacles],
+            BodyList::Free => &all[tools + obstacles..],
+        }
     }
 
     /// Asks for the particles; they come with the next fluid frame.
