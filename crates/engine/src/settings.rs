@@ -335,7 +335,7 @@ const RUN_AND_FLUID: &[Setting<Scene>] = &[
         0.0..=10.0,
         LIVE,
         fluid.surface_tension,
-        "Surface tension of muller; water 0.072. At 0 it is not computed."
+        "Surface tension; water 0.0727. At 0 it is not computed. Solids are wetted at an angle of 90° (wcsph)."
     ),
     number!(
         "fluid.stiffness",

@@ -43,7 +43,7 @@ pub struct FluidSettings {
     pub rest_density: f64,
     /// Dynamic viscosity μ, Pa·s.
     pub viscosity: f64,
-    /// Surface tension coefficient σ of `muller`, N/m; 0 leaves the pass out.
+    /// Surface tension σ, N/m; 0 leaves its passes out.
     pub surface_tension: f64,
     /// Stiffness k of `muller`, p = k(ρ − ρ₀), m²/s².
     pub stiffness: f64,
@@ -297,7 +297,10 @@ impl FluidConfig {
         let floor = self.floor_height();
         let fall = |s: &Source| (s.position.y - floor).clamp(0.0, drop);
         let jet = self.world.sources.iter().map(|s| (s.speed * s.speed + 2.0 * g * fall(s)).sqrt());
-        jet.fold((2.0 * g * pool).sqrt(), f64::max).max(0.1)
+        // A sheet one particle thick draws itself in at this speed (Taylor and Culick).
+        let sheet =
+            2.0 * self.settings.surface_tension / (self.settings.rest_density * self.settings.spacing);
+        jet.fold((2.0 * g * pool).max(sheet).sqrt(), f64::max).max(0.1)
     }
 
     /// Lowest solid floor, or the lower bound, m.

@@ -16,6 +16,7 @@ use crate::restack::restack;
 use crate::rigid::Rigid;
 use crate::solids::{Meeting, Solids, Walls};
 use crate::solver::muller::Muller;
+use crate::solver::tension::{Pull, Tension};
 use crate::solver::wcsph::{PACKING_INTERVAL, Rates, Wcsph};
 use crate::solver::{self, Pass, Rows, Scratch};
 use crate::wall::WallTable;
@@ -117,6 +118,7 @@ struct Fluid {
     bodies: Vec<Body>,
     emitters: Vec<Emitter>,
     method: Method,
+    tension: Option<Tension>,
     walls: Walls,
     periodic: Periodic,
     plane: WallTable,
@@ -132,6 +134,8 @@ struct Fluid {
     meetings: Meetings,
     scratch: Scratch,
     rows: Rows,
+    normals: Rows,
+    pulls: Vec<Pull>,
     rates: Vec<Rates>,
     dead: Vec<bool>,
     images: Vec<(u32, Vec3)>,
@@ -168,6 +172,7 @@ impl Fluid {
             bodies: config.world.bodies.iter().cloned().map(Body::new).collect(),
             emitters: vec![Emitter::default(); config.world.sources.len()],
             method: Method::new(config),
+            tension: Tension::new(config),
             walls: Walls::new(&config.world, config.settings.spacing),
             periodic: Periodic::new(&config.world),
             plane: WallTable::plane(config.settings.kernel, support),
@@ -182,6 +187,8 @@ impl Fluid {
             meetings: Meetings::default(),
             scratch: Scratch::default(),
             rows: Rows::new(),
+            normals: Rows::new(),
+            pulls: Vec::new(),
             rates: Vec::new(),
             dead: Vec::new(),
             images: Vec::new(),
@@ -195,6 +202,7 @@ impl Fluid {
     /// Takes new settings over without losing the fluid.
     fn adapt(&mut self, old: &FluidConfig, new: &FluidConfig) {
         self.method = Method::new(new);
+        self.tension = Tension::new(new);
         for (body, config) in self.bodies.iter_mut().zip(&new.world.bodies) {
             body.config = config.clone();
         }
@@ -451,6 +459,12 @@ impl Fluid {
                 let (rates, scratch) = (&self.rates, &mut self.scratch);
                 w.accelerations(pass!(), rates, scratch, &mut self.rows, &mut self.step_loads);
             }
+        }
+        if let Some(t) = self.tension {
+            t.normals(pass!(), &mut self.scratch, &mut self.normals);
+            self.particles.copy_to_images(&mut self.normals);
+            t.pulls(pass!(), &self.normals, &mut self.scratch, &mut self.pulls, &mut self.step_loads);
+            t.add(&self.particles, &self.normals, &self.pulls, &mut self.rows);
         }
         self.forgive = false;
     }

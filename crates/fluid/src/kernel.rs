@@ -78,6 +78,17 @@ pub fn poly6_slope_over_r(r: f64, h: f64) -> f64 {
     if r > h { 0.0 } else { -945.0 / (32.0 * PI * h.powi(9)) * (h * h - r * r).powi(2) }
 }
 
+/// First moment of the poly6 gradient over a cubic lattice of spacing `dx`: 1 in the continuum.
+pub fn poly6_lattice_moment(dx: f64, h: f64) -> f64 {
+    lattice_sum(dx, h, |r, x| -poly6_slope_over_r(r, h) * x * x)
+}
+
+/// Normal component of the gradient of poly6's integral over a half space at distance `d`, 1/m; never positive.
+pub fn poly6_plane_gradient(d: f64, h: f64) -> f64 {
+    let q2 = (d / h).powi(2);
+    if q2 > 1.0 { 0.0 } else { -315.0 / (256.0 * h) * (1.0 - q2).powi(4) }
+}
+
 /// Poly6 Laplacian, 1/m⁵.
 pub fn poly6_laplacian(r: f64, h: f64) -> f64 {
     let (h2, r2) = (h * h, r * r);
@@ -191,6 +202,18 @@ mod tests {
                 assert!((kernel.lattice_sum(0.01, 0.01 * ratio) - 1.0).abs() < 0.04);
             }
             assert!((kernel.lattice_moment(0.01, 0.06) - 1.0).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn the_plane_gradient_is_the_integral_over_its_face() {
+        let h = 0.3;
+        for d in [-0.2_f64, 0.0, 0.1, 0.29] {
+            let n = 20_000;
+            let ring = |k: i32| (f64::from(k) + 0.5) * h / f64::from(n);
+            let face = |s: f64| 2.0 * PI * s * poly6(d.hypot(s), h) * h / f64::from(n);
+            let sum: f64 = (0..n).map(ring).map(face).sum();
+            assert!((poly6_plane_gradient(d, h) + sum).abs() < 1e-5 / h);
         }
     }
 

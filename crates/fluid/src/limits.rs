@@ -10,6 +10,8 @@ pub struct StepLimits {
     pub cfl: f64,
     /// Explicit viscosity.
     pub viscous: f64,
+    /// Forces: gravity and surface tension (Monaghan 1992, doi:10.1146/annurev.aa.30.090192.002551).
+    pub force: f64,
     /// Contacts: no particle crosses more than a third of a spacing.
     pub contact: f64,
 }
@@ -17,7 +19,7 @@ pub struct StepLimits {
 impl StepLimits {
     /// The shortest of them, s.
     pub fn shortest(&self) -> f64 {
-        self.cfl.min(self.viscous).min(self.contact)
+        self.cfl.min(self.viscous).min(self.force).min(self.contact)
     }
 }
 
@@ -31,7 +33,8 @@ pub fn step_limits(config: &FluidConfig, speed: f64) -> StepLimits {
     let (dx, h) = (s.spacing, s.support_length());
     let contact = dx / 3.0 / speed.max(1e-9);
     if s.mode == InteractionMode::None {
-        return StepLimits { cfl: f64::INFINITY, viscous: f64::INFINITY, contact };
+        let never = f64::INFINITY;
+        return StepLimits { cfl: never, viscous: never, force: never, contact };
     }
     let c = config.sound_speed() + speed;
     let nu = s.kinematic_viscosity();
@@ -41,7 +44,14 @@ pub fn step_limits(config: &FluidConfig, speed: f64) -> StepLimits {
     };
     // Mixed gives every other sub-step the push of two.
     let share = if s.mode == InteractionMode::Mixed { 0.7 } else { 1.0 };
-    StepLimits { cfl: share * courant * dx / c, viscous: share * h * h / decay.max(1e-12), contact }
+    // What the surface of a ball of one spacing feels.
+    let push = s.gravity.length() + 2.0 * s.surface_tension / (s.rest_density * dx * dx);
+    StepLimits {
+        cfl: share * courant * dx / c,
+        viscous: share * h * h / decay.max(1e-12),
+        force: share * 0.25 * (dx / push.max(1e-12)).sqrt(),
+        contact,
+    }
 }
 
 /// Sub-steps that a frame of `frame_s` seconds needs.
@@ -60,7 +70,11 @@ pub(crate) fn check_substeps(config: &FluidConfig) -> Result<(), FluidError> {
     if needed <= allowed {
         return Ok(());
     }
-    let cause = if limits.viscous < limits.cfl { "fluid.viscosity" } else { "the speed of sound" };
+    let cause = match limits.shortest() {
+        shortest if shortest == limits.viscous => "fluid.viscosity",
+        shortest if shortest == limits.force => "fluid.surface_tension",
+        _ => "the speed of sound",
+    };
     Err(FluidError::TooStiff {
         cause,
         needed,

@@ -194,11 +194,14 @@ impl Particles {
     pub fn refresh_images(&mut self) {
         let images = std::mem::take(&mut self.images);
         for column in [&mut self.p, &mut self.aux, &mut self.lx, &mut self.ly, &mut self.lz] {
-            for &[image, owner] in &images {
-                column[image as usize] = column[owner as usize];
-            }
+            copy(&images, column);
         }
         self.images = images;
+    }
+
+    /// Gives the images their owners' entries of `rows`.
+    pub fn copy_to_images<T: Copy>(&self, rows: &mut [T]) {
+        copy(&self.images, rows);
     }
 
     /// Drops the images.
@@ -221,6 +224,12 @@ impl Particles {
         for k in self.len..wanted {
             (self.x[k], self.y[k], self.z[k]) = (FAR, FAR, FAR);
         }
+    }
+}
+
+fn copy<T: Copy>(images: &[[u32; 2]], rows: &mut [T]) {
+    for &[image, owner] in images {
+        rows[image as usize] = rows[owner as usize];
     }
 }
 

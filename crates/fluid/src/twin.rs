@@ -132,3 +132,38 @@ impl WcsphTwin {
         self.kernel.slope_over_r(a.x.distance(b.x), self.h) * (a.x - b.x)
     }
 }
+
+/// Constants of the sums of `wcsph`'s surface tension.
+#[derive(Clone, Copy, Debug)]
+pub struct TensionTwin {
+    /// Support, m.
+    pub h: f64,
+    /// Volume of a particle in the gradient sums, m³.
+    pub volume: f64,
+    /// 2σ/ρ₀, m³/s².
+    pub strength: f64,
+}
+
+impl TensionTwin {
+    /// Gradient of the colour at particle `i`, 1/m.
+    pub fn normal(&self, all: &[Twin], i: usize) -> DVec3 {
+        all.iter().map(|b| self.weight(&all[i], b) * (b.x - all[i].x)).sum()
+    }
+
+    /// Acceleration of particle `i` by its curvature, m/s²; `normals`: the gradients of all.
+    pub fn acceleration(&self, all: &[Twin], normals: &[DVec3], i: usize) -> DVec3 {
+        let own = normals[i].normalize_or_zero();
+        let (mut turn, mut along) = (0.0, 0.0);
+        for (b, n) in all.iter().zip(normals) {
+            let (d, weight) = (b.x - all[i].x, n.length() * self.weight(&all[i], b));
+            turn += weight * (n.normalize_or_zero() - own).dot(d);
+            along += weight * d.reject_from_normalized(own).length_squared();
+        }
+        let curvature = -2.0 * turn / along;
+        self.strength * curvature * normals[i]
+    }
+
+    fn weight(&self, a: &Twin, b: &Twin) -> f64 {
+        -self.volume * kernel::poly6_slope_over_r(a.x.distance(b.x), self.h)
+    }
+}

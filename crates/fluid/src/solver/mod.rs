@@ -5,6 +5,7 @@
 //! that results do not depend on the number of threads.
 
 pub(crate) mod muller;
+pub(crate) mod tension;
 pub(crate) mod wcsph;
 
 use crate::body::BodyLoad;

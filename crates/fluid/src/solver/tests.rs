@@ -7,10 +7,10 @@ use crate::meetings::Meetings;
 use crate::neighbours::Neighbours;
 use crate::particles::{Newborn, Particles};
 use crate::solids::{Solids, Walls};
-use crate::solver::{muller::Muller, wcsph::Wcsph};
-use crate::twin::{MullerTwin, Twin, WcsphTwin};
+use crate::solver::{muller::Muller, tension::Tension, wcsph::Wcsph};
+use crate::twin::{MullerTwin, TensionTwin, Twin, WcsphTwin};
 use crate::wall::WallTable;
-use crate::{Aabb, FluidConfig, FluidSettings, Kernel, Solver, World};
+use crate::{Aabb, FluidConfig, FluidSettings, Kernel, Solver, World, kernel};
 use glam::{DVec3, Vec3};
 
 fn config(solver: Solver) -> FluidConfig {
@@ -182,6 +182,46 @@ fn hold_wcsph_against_the_twin(config: &FluidConfig) {
         with_pass(particles, &|pass| solver.packing(pass, &mut Scratch::default(), &mut rows.borrow_mut()));
         let fill = |i: usize| twin.sum(&all, i) / s.kernel.lattice_sum(dx, h) * dx.powi(3);
         assert_rows(rows.borrow().iter().map(vector), each(&|i| DVec3::X * fill(i)).into_iter());
+    });
+}
+
+/// Normals and curvatures are the twin's, and whatever they are, what they do sums to nothing.
+#[test]
+fn surface_tension_equals_the_twin_and_sums_to_nothing() {
+    let config = config(Solver::Wcsph);
+    let s = &config.settings;
+    let (dx, h) = (s.spacing, s.support_length());
+    let volume = dx.powi(3) / kernel::poly6_lattice_moment(dx, h);
+    let twin = TensionTwin { h, volume, strength: 2.0 * s.surface_tension / s.rest_density };
+    let tension = Tension::new(&config).unwrap();
+    each_pass(&config, |particles, with_pass| {
+        let (mut normals, pulls) = (Rows::new(), std::cell::RefCell::new(Vec::new()));
+        let found = std::cell::RefCell::new(Rows::new());
+        with_pass(particles, &|pass| {
+            tension.normals(pass, &mut Scratch::default(), &mut found.borrow_mut());
+        });
+        normals.clone_from(&found.borrow());
+        with_pass(particles, &|pass| {
+            tension.pulls(pass, &normals, &mut Scratch::default(), &mut pulls.borrow_mut(), &mut []);
+        });
+        let all = twins(particles, |_| 1000.0);
+        let expected: Vec<_> = (0..all.len()).map(|i| twin.normal(&all, i)).collect();
+        assert_rows(normals.iter().map(|n| vector(n) * f64::from(n[3])), expected.iter().copied());
+        // Spray has nobody along it: there the curvature is cut off.
+        let smooth = |a: DVec3, n: DVec3| a.length() < 2.0 / dx * twin.strength * n.length();
+        let pulls = pulls.into_inner();
+        let scale = twin.strength / (dx * h);
+        for (i, pull) in pulls.iter().enumerate() {
+            let a = twin.acceleration(&all, &expected, i);
+            if smooth(a, expected[i]) && expected[i].length() > 0.1 / h {
+                assert_close(pull.curvature.as_dvec3(), a, 5.0 * scale, "curvature");
+            }
+        }
+        let mut rows = vec![[0.0; 4]; pulls.len()];
+        tension.add(particles, &normals, &pulls, &mut rows);
+        let size: f64 = rows.iter().map(|r| vector(r).length()).sum();
+        let sum: DVec3 = rows.iter().map(vector).sum();
+        assert!(size > 0.0 && sum.length() < 1e-5 * size, "{sum} of {size}");
     });
 }
 
