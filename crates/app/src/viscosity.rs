@@ -11,7 +11,7 @@ pub fn told(scene: &Scene) -> String {
     let Some([added, wavelength]) = added(scene) else { return "plays no part".into() };
     let verdict = if added > stated { "more than the stated one" } else { "less than the stated one" };
     let wavelength = 1e3 * wavelength;
-    format!("{stated} Pa·s; the solver adds {added:.2e} to waves of {wavelength:.1} mm, {verdict}")
+    format!("{stated} Pa·s; the solver adds up to {added:.2e} to waves of {wavelength:.1} mm, {verdict}")
 }
 
 /// The same as JSON; null where viscosity plays no part.
@@ -26,7 +26,7 @@ pub fn json(scene: &Scene) -> Value {
     })
 }
 
-/// What the solver adds (Pa·s) at the wavelength (m) that it resolves well.
+/// The most that the solver adds (Pa·s) at the wavelength (m) that it resolves well.
 fn added(scene: &Scene) -> Option<[f64; 2]> {
     let config = scene.fluid_config(1);
     let viscous = scene.run.backend == BackendKind::Cpu && config.settings.mode != InteractionMode::None;

@@ -273,7 +273,7 @@ const RUN_AND_FLUID: &[Setting<Scene>] = &[
             Ok(())
         },
     },
-    choice!("fluid.kernel", LIVE, fluid.kernel, ["wendland" => Kernel::Wendland, "cubic" => Kernel::Cubic], "Kernel of wcsph: Wendland C2 or the cubic spline. muller has its own three."),
+    choice!("fluid.kernel", LIVE, fluid.kernel, ["low-pass" => Kernel::LowPass, "wendland" => Kernel::Wendland, "cubic" => Kernel::Cubic], "Kernel of wcsph: low-pass is blind to how the particles stand at 2.7 spacings, Wendland C2 and the cubic spline see it a little. muller has its own three."),
     number!(
         "fluid.support",
         "spacings",

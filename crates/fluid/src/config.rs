@@ -90,7 +90,7 @@ impl Default for FluidSettings {
             solver: Solver::Wcsph,
             mode: InteractionMode::Full,
             spacing: 0.005,
-            kernel: Kernel::Wendland,
+            kernel: Kernel::LowPass,
             support: 0.0,
             rest_density: 1000.0,
             viscosity: 0.001,
@@ -324,8 +324,9 @@ impl FluidConfig {
         }
     }
 
-    /// What the solver adds to the stated viscosity in a flow of this wavelength (m), Pa·s. `wcsph` adds the less the
-    /// longer the waves; in mode none nothing is viscous. `tests/effective_viscosity.rs` measures it.
+    /// The most that the solver adds to the stated viscosity in a flow of this wavelength (m), Pa·s. `wcsph` adds the less
+    /// the longer the waves, and to quiet flow a fifth of this; in mode none nothing is viscous.
+    /// `tests/effective_viscosity.rs` measures it.
     pub fn added_viscosity(&self, wavelength: f64) -> f64 {
         if self.settings.mode == InteractionMode::None {
             return 0.0;

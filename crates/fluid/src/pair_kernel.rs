@@ -1,17 +1,18 @@
-//! The kernels of `wcsph` as the pair loops take them: in lanes, at distances in supports, without their constants.
+//! The kernels of `wcsph` as the pair loops take them: in lanes, at squared distances in supports², without their constants.
 //!
 //! Types and no values, so that each loop is compiled for one of them and the choice costs nothing in it.
 
+use crate::kernel::LOW_PASS;
 use crate::lanes::fma;
 use pulp::Simd;
 
 /// A kernel in lanes.
 pub(crate) trait PairKernel: Copy + Sync {
-    /// −(dW/dr)/r over [`Kernel::gradient_scale`](crate::Kernel::gradient_scale) at distances `r`; 0 from 1 on.
-    fn slope<S: Simd>(self, simd: S, r: S::f32s) -> S::f32s;
+    /// −(dW/dr)/r over [`Kernel::gradient_scale`](crate::Kernel::gradient_scale) at distances of square `r2`; 0 from 1 on.
+    fn slope<S: Simd>(self, simd: S, r2: S::f32s) -> S::f32s;
 
-    /// W/W(0) at distances `r`, added to `sum`.
-    fn add_value<S: Simd>(self, simd: S, r: S::f32s, sum: S::f32s) -> S::f32s;
+    /// W/W(0) there, added to `sum`.
+    fn add_value<S: Simd>(self, simd: S, r2: S::f32s, sum: S::f32s) -> S::f32s;
 }
 
 /// The larger of a − b and 0.
@@ -32,15 +33,15 @@ pub(crate) struct Wendland;
 
 impl PairKernel for Wendland {
     #[inline(always)]
-    fn slope<S: Simd>(self, simd: S, r: S::f32s) -> S::f32s {
-        cube(simd, above(simd, simd.splat_f32s(1.0), r))
+    fn slope<S: Simd>(self, simd: S, r2: S::f32s) -> S::f32s {
+        cube(simd, above(simd, simd.splat_f32s(1.0), simd.sqrt_f32s(r2)))
     }
 
     #[inline(always)]
-    fn add_value<S: Simd>(self, simd: S, r: S::f32s, sum: S::f32s) -> S::f32s {
-        let one = simd.splat_f32s(1.0);
+    fn add_value<S: Simd>(self, simd: S, r2: S::f32s, sum: S::f32s) -> S::f32s {
+        let (one, r) = (simd.splat_f32s(1.0), simd.sqrt_f32s(r2));
         let w = simd.mul_f32s(simd.sub_f32s(one, r), fma(simd, simd.splat_f32s(4.0), r, one));
-        fma(simd, self.slope(simd, r), w, sum)
+        fma(simd, self.slope(simd, r2), w, sum)
     }
 }
 
@@ -50,19 +51,62 @@ pub(crate) struct Cubic;
 
 impl PairKernel for Cubic {
     #[inline(always)]
-    fn slope<S: Simd>(self, simd: S, r: S::f32s) -> S::f32s {
+    fn slope<S: Simd>(self, simd: S, r2: S::f32s) -> S::f32s {
         let (one, half) = (simd.splat_f32s(1.0), simd.splat_f32s(0.5));
-        let r = simd.min_f32s(r, one);
+        let r = simd.min_f32s(simd.sqrt_f32s(r2), one);
         let bend = above(simd, simd.add_f32s(r, r), one);
         let bend = simd.div_f32s(simd.mul_f32s(bend, bend), simd.max_f32s(r, half));
         simd.add_f32s(fma(simd, simd.splat_f32s(-3.0), r, simd.splat_f32s(2.0)), bend)
     }
 
     #[inline(always)]
-    fn add_value<S: Simd>(self, simd: S, r: S::f32s, sum: S::f32s) -> S::f32s {
+    fn add_value<S: Simd>(self, simd: S, r2: S::f32s, sum: S::f32s) -> S::f32s {
+        let r = simd.sqrt_f32s(r2);
         let outer = cube(simd, above(simd, simd.splat_f32s(1.0), r));
         let inner = cube(simd, above(simd, simd.splat_f32s(0.5), r));
         let sum = fma(simd, simd.splat_f32s(2.0), outer, sum);
         fma(simd, simd.splat_f32s(-8.0), inner, sum)
     }
+}
+
+/// a_n of the low-pass kernel, and n a_n.
+const VALUE: [f32; 7] = low_pass_factors(false);
+const SLOPE: [f32; 7] = low_pass_factors(true);
+
+const fn low_pass_factors(slope: bool) -> [f32; 7] {
+    let (mut factors, mut k) = ([0.0; 7], 0);
+    while k < 7 {
+        let n = if slope { (k + 3) as f64 } else { 1.0 };
+        factors[k] = (n * LOW_PASS[k]) as f32;
+        k += 1;
+    }
+    factors
+}
+
+/// The low-pass kernel: with s = 1 − r², Σ n a_n sⁿ⁻¹ and Σ a_n sⁿ; no root.
+#[derive(Clone, Copy)]
+pub(crate) struct LowPass;
+
+impl PairKernel for LowPass {
+    #[inline(always)]
+    fn slope<S: Simd>(self, simd: S, r2: S::f32s) -> S::f32s {
+        let s = above(simd, simd.splat_f32s(1.0), r2);
+        simd.mul_f32s(polynomial(simd, &SLOPE, s), simd.mul_f32s(s, s))
+    }
+
+    #[inline(always)]
+    fn add_value<S: Simd>(self, simd: S, r2: S::f32s, sum: S::f32s) -> S::f32s {
+        let s = above(simd, simd.splat_f32s(1.0), r2);
+        fma(simd, polynomial(simd, &VALUE, s), cube(simd, s), sum)
+    }
+}
+
+/// Σ factors[k] s^k (Horner).
+#[inline(always)]
+fn polynomial<S: Simd>(simd: S, factors: &[f32; 7], s: S::f32s) -> S::f32s {
+    let mut sum = simd.splat_f32s(0.0);
+    for &factor in factors.iter().rev() {
+        sum = fma(simd, sum, s, simd.splat_f32s(factor));
+    }
+    sum
 }

@@ -122,7 +122,7 @@ fn integrate(kernel: Kernel, support: f64, d: f64, cap: &impl Fn(f64, f64) -> f6
 mod tests {
     use super::*;
 
-    const KERNELS: [Kernel; 2] = [Kernel::Wendland, Kernel::Cubic];
+    const KERNELS: [Kernel; 3] = [Kernel::Wendland, Kernel::Cubic, Kernel::LowPass];
 
     #[test]
     fn a_plane_through_the_particle_takes_half() {

