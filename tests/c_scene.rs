@@ -220,11 +220,11 @@ fn what_cannot_be_is_refused_with_the_reason_and_the_scene_stays() {
     refused(&api, set(c"fluid.viscosty", 1.0), code::SETTING, &["did you mean"]);
     assert_eq!(api.written(scene), before);
     // What is sound by itself, and not together.
-    assert_eq!(set(c"fluid.viscosity", 9000.0), code::OK);
-    refused(&api, (api.scene_check)(scene), value, &["fluid.viscosity is too high"]);
+    assert_eq!(set(c"fluid.sound_speed", 2000.0), code::OK);
+    refused(&api, (api.scene_check)(scene), value, &["the speed of sound is too high"]);
     let mut session = Session::default();
     let config = SessionConfig { built: scene, ..api.config() };
-    refused(&api, (api.session_create)(&config, &mut session), value, &["fluid.viscosity is too high"]);
+    refused(&api, (api.session_create)(&config, &mut session), value, &["the speed of sound is too high"]);
     let both = SessionConfig { scene: c"tap".as_ptr(), ..config };
     refused(
         &api,

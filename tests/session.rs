@@ -108,8 +108,9 @@ fn settings_are_checked_and_act_while_it_runs() {
         assert!(matches!(s.session.set(path, &value), Err(SceneError::BadValue { .. })));
     }
     assert!(matches!(s.session.set("run.fluid_hz", &Value::Number(50.0)), Err(SceneError::NotLive(_))));
-    let stiff = s.session.set("fluid.viscosity", &Value::Number(9000.0)).unwrap_err().to_string();
-    assert!(stiff.contains("fluid.viscosity is too high"), "{stiff}");
+    let stiff = s.session.set("fluid.sound_speed", &Value::Number(2000.0)).unwrap_err().to_string();
+    assert!(stiff.contains("the speed of sound is too high"), "{stiff}");
+    assert_eq!(s.session.get("fluid.sound_speed").unwrap(), Value::Number(0.0));
     assert_eq!(s.session.get("fluid.viscosity").unwrap(), Value::Number(0.001));
 }
 

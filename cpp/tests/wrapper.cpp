@@ -646,8 +646,8 @@ static void scenes_refuse_and_move() {
     THROWS(HAPFLOW_ERROR_NOT_FOUND, {"load: "}, static_cast<void>(Scene::load("tapp")));
     THROWS(HAPFLOW_ERROR_SCENE, {"parse: toml:1"}, static_cast<void>(Scene::parse("[fluid\n")));
     CHECK(scene.write() == before);
-    scene.set("fluid.viscosity", 9000);
-    THROWS(HAPFLOW_ERROR_VALUE, {"check: fluid.viscosity is too high"}, scene.check());
+    scene.set("fluid.sound_speed", 2000);
+    THROWS(HAPFLOW_ERROR_VALUE, {"check: the speed of sound is too high"}, scene.check());
 
     const hapflow_scene handle = scene.handle();
     Scene other(std::move(scene));

@@ -303,7 +303,7 @@ const RUN_AND_FLUID: &[Setting<Scene>] = &[
         0.0..=1e4,
         LIVE,
         fluid.viscosity,
-        "Dynamic viscosity. What the solver adds comes on top."
+        "Dynamic viscosity, to any stiffness. What the solver adds comes on top."
     ),
     number!(
         "fluid.artificial_viscosity",

@@ -17,6 +17,7 @@ use crate::rigid::Rigid;
 use crate::solids::{Meeting, Solids, Walls};
 use crate::solver::muller::Muller;
 use crate::solver::tension::{Pull, Tension};
+use crate::solver::viscosity::{Room, Viscosity};
 use crate::solver::wcsph::{PACKING_INTERVAL, Rates, Wcsph};
 use crate::solver::{self, Pass, Rows, Scratch};
 use crate::wall::WallTable;
@@ -119,6 +120,7 @@ struct Fluid {
     emitters: Vec<Emitter>,
     method: Method,
     tension: Option<Tension>,
+    viscosity: Option<Viscosity>,
     walls: Walls,
     periodic: Periodic,
     plane: WallTable,
@@ -136,6 +138,7 @@ struct Fluid {
     rows: Rows,
     normals: Rows,
     pulls: Vec<Pull>,
+    room: Room,
     rates: Vec<Rates>,
     dead: Vec<bool>,
     images: Vec<(u32, Vec3)>,
@@ -173,6 +176,7 @@ impl Fluid {
             emitters: vec![Emitter::default(); config.world.sources.len()],
             method: Method::new(config),
             tension: Tension::new(config),
+            viscosity: Viscosity::new(config),
             walls: Walls::new(&config.world, config.settings.spacing),
             periodic: Periodic::new(&config.world),
             plane: WallTable::plane(config.settings.kernel, support),
@@ -189,6 +193,7 @@ impl Fluid {
             rows: Rows::new(),
             normals: Rows::new(),
             pulls: Vec::new(),
+            room: Room::default(),
             rates: Vec::new(),
             dead: Vec::new(),
             images: Vec::new(),
@@ -203,6 +208,7 @@ impl Fluid {
     fn adapt(&mut self, old: &FluidConfig, new: &FluidConfig) {
         self.method = Method::new(new);
         self.tension = Tension::new(new);
+        self.viscosity = Viscosity::new(new);
         for (body, config) in self.bodies.iter_mut().zip(&new.world.bodies) {
             body.config = config.clone();
         }
@@ -465,6 +471,10 @@ impl Fluid {
             self.particles.copy_to_images(&mut self.normals);
             t.pulls(pass!(), &self.normals, &mut self.scratch, &mut self.pulls, &mut self.step_loads);
             t.add(&self.particles, &self.normals, &self.pulls, &mut self.rows);
+        }
+        if let Some(v) = self.viscosity {
+            let (rows, loads) = (&mut self.rows, &mut self.step_loads);
+            self.degraded |= !v.solve(pass!(), dt, &mut self.room, &mut self.scratch, rows, loads);
         }
         self.forgive = false;
     }

@@ -3,7 +3,7 @@
 //! Types and no values, so that each loop is compiled for one of them and the choice costs nothing in it.
 
 use crate::kernel::LOW_PASS;
-use crate::lanes::fma;
+use crate::lanes::{difference, dot, fma};
 use pulp::Simd;
 
 /// A kernel in lanes.
@@ -13,6 +13,34 @@ pub(crate) trait PairKernel: Copy + Sync {
 
     /// W/W(0) there, added to `sum`.
     fn add_value<S: Simd>(self, simd: S, r2: S::f32s, sum: S::f32s) -> S::f32s;
+}
+
+/// Runs the body for the kernel's own type, so that its pair loop is compiled for it alone.
+macro_rules! with_kernel {
+    ($kernel:expr, |$k:ident| $body:expr) => {
+        match $kernel {
+            $crate::Kernel::Wendland => {
+                let $k = $crate::pair_kernel::Wendland;
+                $body
+            }
+            $crate::Kernel::Cubic => {
+                let $k = $crate::pair_kernel::Cubic;
+                $body
+            }
+            $crate::Kernel::LowPass => {
+                let $k = $crate::pair_kernel::LowPass;
+                $body
+            }
+        }
+    };
+}
+pub(crate) use with_kernel;
+
+/// d = j − i and d² of pairs.
+#[inline(always)]
+pub(crate) fn apart<S: Simd>(simd: S, i: [S::f32s; 3], j: [S::f32s; 3]) -> ([S::f32s; 3], S::f32s) {
+    let d = difference(simd, i, j);
+    (d, dot(simd, d, d))
 }
 
 /// The larger of a − b and 0.

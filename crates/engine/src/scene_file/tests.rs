@@ -76,9 +76,9 @@ fn a_wrong_file_is_told_by_file_line_field_value_and_range() {
 
 #[test]
 fn what_cannot_be_stable_is_refused_with_its_line_and_reason() {
-    let told = error("[fluid]\nspacing = 0.002\nviscosity = 5000\n");
+    let told = error("[fluid]\nsolver = \"muller\"\nspacing = 0.002\nviscosity = 5000\n");
     assert!(told.starts_with("my.toml:") && told.contains("fluid.viscosity is too high"), "{told}");
-    let told = error("[[change]]\nat_s = 1\nfluid.viscosity = 9000\n");
+    let told = error("[[change]]\nat_s = 1\nfluid.viscosity = 9000\nfluid.solver = \"muller\"\n");
     assert!(told.contains("change at 1 s") && told.contains("fluid.viscosity"), "{told}");
 }
 

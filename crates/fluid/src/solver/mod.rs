@@ -6,6 +6,7 @@
 
 pub(crate) mod muller;
 pub(crate) mod tension;
+pub(crate) mod viscosity;
 pub(crate) mod wcsph;
 
 use crate::body::BodyLoad;

@@ -23,12 +23,14 @@
 //! no longer needed to spread particles, and what that costs in drag falls away. The term with κ takes the viscous
 //! term twice: it stops what changes from particle to particle and leaves flow alone that is smooth over H. κ stands within
 //! the inner L, and grows with it (see `QUIET_SHARE`). q_i leads P slowly to the pressure of the summed density, because an integrated density forgets
-//! how many particles there are. Walls: see `wall.rs`; they push and never pull.
+//! how many particles there are. Walls: see `wall.rs`; they push and never pull. Where ν is so large that sound could go on for
+//! far longer, ν L is solved for instead (`viscosity.rs`); surface tension comes on top (`tension.rs`).
 
+use super::viscosity::is_implicit;
 use super::{Pass, Record, RowPass, Rows, Scratch, sweep};
 use crate::body::BodyLoad;
 use crate::lanes::{add_scaled, difference, dot, fma};
-use crate::pair_kernel::{Cubic, LowPass, PairKernel, Wendland};
+use crate::pair_kernel::{PairKernel, apart, with_kernel};
 use crate::particles::Particles;
 use crate::solids::Meeting;
 use crate::wall::WallTerms;
@@ -74,6 +76,8 @@ const MOST_DAMPING: f32 = 2.8;
 const TENSION: f64 = 2e-4;
 /// Least share of a moment that is taken to lie in the fluid, when the whole is found from it.
 const LEAST_FLUID: f32 = 0.4;
+/// Distance below which the slope of the velocity at a wall is no longer looked for, in spacings.
+pub(crate) const LEAST_DISTANCE: f32 = 0.25;
 /// Longest shift in a sub-step, in spacings.
 const LONGEST_SHIFT: f32 = 0.05;
 /// From this share of a full neighbourhood to this, the noise filter sets in: at a free surface the sum over one side
@@ -101,7 +105,7 @@ pub(crate) struct Wcsph {
     sound: f32,
     diffusion: f32,
     damper: f32,
-    /// Stated kinematic viscosity, m²/s.
+    /// Stated kinematic viscosity, m²/s; 0 where it is implicit.
     viscosity: f32,
     /// κ of the noise filter, m⁴/s.
     filter: f32,
@@ -121,26 +125,6 @@ pub(crate) struct Wcsph {
     two_way: bool,
 }
 
-/// Runs the body for the kernel's own type, so that its pair loop is compiled for it alone.
-macro_rules! with_kernel {
-    ($kernel:expr, |$k:ident| $body:expr) => {
-        match $kernel {
-            Kernel::Wendland => {
-                let $k = Wendland;
-                $body
-            }
-            Kernel::Cubic => {
-                let $k = Cubic;
-                $body
-            }
-            Kernel::LowPass => {
-                let $k = LowPass;
-                $body
-            }
-        }
-    };
-}
-
 impl Wcsph {
     pub fn new(config: &FluidConfig) -> Self {
         let s = &config.settings;
@@ -157,13 +141,13 @@ impl Wcsph {
             sound: c as f32,
             diffusion: (s.density_diffusion * 0.5 * h * c) as f32,
             damper: (s.acoustic_damping * c * dx) as f32,
-            viscosity: s.kinematic_viscosity() as f32,
+            viscosity: if is_implicit(config) { 0.0 } else { s.kinematic_viscosity() as f32 },
             filter: noise_filter(config) as f32,
             spacing: dx as f32,
             rough: (h * h / (s.artificial_viscosity * c).max(1e-9)) as f32,
             shifting: (s.shifting * c * dx) as f32,
             longest_shift: LONGEST_SHIFT * dx as f32,
-            least_distance: (0.25 * dx) as f32,
+            least_distance: LEAST_DISTANCE * dx as f32,
             background: (s.background_pressure / s.rest_density) as f32,
             floor: -(s.background_pressure / s.rest_density + TENSION * c * c) as f32,
             gravity: s.gravity.as_vec3(),
@@ -332,13 +316,6 @@ impl<K: PairKernel> RowPass<7, 8> for RatesPass<'_, K> {
         r.shift = -s.shifting * crowding;
         r
     }
-}
-
-/// d and d² of pairs, in supports.
-#[inline(always)]
-fn apart<S: Simd>(simd: S, i: [S::f32s; 3], j: [S::f32s; 3]) -> ([S::f32s; 3], S::f32s) {
-    let d = difference(simd, i, j);
-    (d, dot(simd, d, d))
 }
 
 #[derive(Clone, Copy)]
