@@ -6,7 +6,9 @@ mod common;
 
 use common::{Run, SOLVERS, jet_scene, tank_scene};
 use glam::DVec3;
-use hapflow_fluid::{BodyDrive, BodyLoad, BodySample, FluidConfig, ParticleView};
+use hapflow_fluid::{
+    BodyDrive, BodyLoad, BodySample, FluidConfig, FluidSettings, Kernel, ParticleView, Solver,
+};
 
 const FRAMES: u32 = 20;
 
@@ -39,6 +41,11 @@ fn scenes() -> Vec<FluidConfig> {
         scenes.push(FluidConfig { frame_hz: 150.0, ..jet });
         scenes.push(tank_scene(solver, 0.12, 11, 0.03));
     }
+    // Stiff honey with a surface, by the other kernel: all that a scene can have over and above.
+    let mut honey = tank_scene(Solver::Wcsph, 0.12, 11, 0.03);
+    honey.settings =
+        FluidSettings { viscosity: 300.0, surface_tension: 0.06, kernel: Kernel::Cubic, ..honey.settings };
+    scenes.push(honey);
     scenes
 }
 
