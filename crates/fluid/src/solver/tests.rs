@@ -7,6 +7,7 @@ use crate::meetings::Meetings;
 use crate::neighbours::Neighbours;
 use crate::particles::{Newborn, Particles};
 use crate::solids::{Solids, Walls};
+use crate::solver::viscosity::{Room, Viscosity};
 use crate::solver::{muller::Muller, tension::Tension, wcsph::Wcsph};
 use crate::twin::{MullerTwin, TensionTwin, Twin, WcsphTwin};
 use crate::wall::WallTable;
@@ -222,6 +223,59 @@ fn surface_tension_equals_the_twin_and_sums_to_nothing() {
         let size: f64 = rows.iter().map(|r| vector(r).length()).sum();
         let sum: DVec3 = rows.iter().map(vector).sum();
         assert!(size > 0.0 && sum.length() < 1e-5 * size, "{sum} of {size}");
+    });
+}
+
+/// The velocities that are solved for are those whose friction, by the twin, leads to them.
+#[test]
+fn implicit_viscosity_is_backward_euler_of_the_twin() {
+    let mut config = config(Solver::Wcsph);
+    config.settings.viscosity = 300.0;
+    let s = &config.settings;
+    let (dx, h, dt) = (s.spacing, s.support_length(), 1e-3);
+    let twin = WcsphTwin {
+        kernel: s.kernel,
+        h,
+        volume: dx.powi(3) / s.kernel.lattice_moment(dx, h),
+        viscosity: s.kinematic_viscosity(),
+        filter: 0.0,
+        gravity: s.gravity,
+    };
+    let viscosity = Viscosity::new(&config).unwrap();
+    each_pass(&config, |particles, with_pass| {
+        let found = std::cell::RefCell::new(vec![[1.0, 2.0, 3.0, 0.0]; particles.len()]);
+        let mut all = twins(particles, |_| 1000.0);
+        let others = DVec3::new(1.0, 2.0, 3.0) + s.gravity;
+        let before: Vec<_> = all.iter().map(|a| a.v + dt * others).collect();
+        with_pass(particles, &|pass| {
+            let (mut room, mut scratch) = (Room::default(), Scratch::default());
+            let rows = &mut found.borrow_mut();
+            assert!(viscosity.solve(pass, dt as f32, &mut room, &mut scratch, rows, &mut []));
+        });
+        for (a, row) in all.iter_mut().zip(found.borrow().iter()) {
+            a.v += dt * (vector(row) + s.gravity);
+        }
+        let friction = |i: usize| dt * twin.viscosity * twin.laplacian(&all, i, |k| all[k].v);
+        let back: Vec<_> = (0..all.len()).map(|i| all[i].v - friction(i)).collect();
+        assert!(all.iter().zip(&before).any(|(a, b)| (a.v - *b).length() > 0.5), "it must do something");
+        assert_rows(back.into_iter(), before.iter().copied());
+    });
+}
+
+#[test]
+fn a_force_that_is_no_number_spoils_nobody_elses_velocity() {
+    let mut config = config(Solver::Wcsph);
+    config.settings.viscosity = 3000.0;
+    let viscosity = Viscosity::new(&config).unwrap();
+    each_pass(&config, |particles, with_pass| {
+        let rows = std::cell::RefCell::new(vec![[1.0, 2.0, 3.0, 0.0]; particles.len()]);
+        rows.borrow_mut()[7][0] = f32::NAN;
+        with_pass(particles, &|pass| {
+            let (mut room, mut scratch) = (Room::default(), Scratch::default());
+            assert!(!viscosity.solve(pass, 1e-3, &mut room, &mut scratch, &mut rows.borrow_mut(), &mut []));
+        });
+        let whole = rows.borrow().iter().filter(|row| row.iter().all(|x| x.is_finite())).count();
+        assert_eq!(whole, particles.len() - 1);
     });
 }
 

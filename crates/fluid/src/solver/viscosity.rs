@@ -81,7 +81,7 @@ impl Viscosity {
     }
 
     /// Adds the friction to the accelerations `rows` over a step `dt` (s), and to the loads. False if it was not found
-    /// to the tolerance.
+    /// to the tolerance; what is not a number at all is left out.
     pub fn solve(
         &self,
         pass: Pass<'_>,
@@ -93,7 +93,9 @@ impl Viscosity {
     ) -> bool {
         let system = System { viscosity: self, pass, weight: dt * self.viscosity };
         let found = system.find(dt, room, scratch, rows);
-        system.finish(dt, room, rows, loads);
+        if system.product(&room.x, &room.r, |_| 1.0).is_finite() {
+            system.finish(dt, room, rows, loads);
+        }
         found
     }
 }
@@ -160,16 +162,17 @@ impl System<'_> {
         let enough = TOLERANCE.powi(2) * self.start(dt, x, r, rows, scratch, mp);
         p.clear();
         p.resize(r.len(), [0.0; 4]);
-        let (mut last, mut step) = (1.0, 0.0);
+        let mut last = f64::INFINITY;
         for _ in 0..ITERATIONS {
-            if self.product(r, r, |_| 1.0) <= enough {
-                return true;
+            let rest = self.product(r, r, |_| 1.0);
+            if rest <= enough || !rest.is_finite() {
+                return rest.is_finite();
             }
             let next = self.product(r, r, |i| 1.0 / self.diagonal(i));
-            step = if step == 0.0 { 0.0 } else { next / last };
+            let step = (next / last) as f32;
             for (i, (p, r)) in p.iter_mut().zip(r.iter()).enumerate() {
                 let z = 1.0 / self.diagonal(i);
-                (0..3).for_each(|a| p[a] = z * r[a] + step as f32 * p[a]);
+                (0..3).for_each(|a| p[a] = z * r[a] + step * p[a]);
             }
             self.apply(p, scratch, mp);
             let along = next / self.product(p, mp, |_| 1.0);
@@ -177,7 +180,7 @@ impl System<'_> {
                 (0..3).for_each(|a| x[a] += along as f32 * p[a]);
                 (0..3).for_each(|a| r[a] -= along as f32 * mp[a]);
             }
-            (last, step) = (next, 1.0);
+            last = next;
         }
         false
     }
