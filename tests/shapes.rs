@@ -84,3 +84,55 @@ fn a_jet_presses_on_every_shape() {
         assert!(force.y < -least && force.x.hypot(force.z) < 0.1 * -force.y, "{shape}: {force}");
     }
 }
+
+/// Water in a round container stays in it and comes to rest, level.
+#[test]
+fn a_bowl_and_a_round_tank_hold_water() {
+    for (shape, top, depth) in [("bowl", 0.05, 0.035), ("cylinder", 0.08, 0.04)] {
+        let text = format!(
+            "[run]\nfluid_hz = 50\ndevice = \"null\"\n[fluid]\nspacing = 0.005\n\
+             [tool]\nradius = 0.005\nposition = [0, 0.2, 0]\n\
+             [bounds]\nmin = [-0.1, -0.1, -0.1]\nmax = [0.1, 0.3, 0.1]\n\
+             [container]\nmin = [-0.05, 0, -0.05]\nmax = [0.05, {top}, 0.05]\nshape = \"{shape}\"\n\
+             [[pool]]\nmin = [-0.05, 0, -0.05]\nmax = [0.05, {depth}, 0.05]\n"
+        );
+        let scene = parse(&text, shape).unwrap();
+        let again = parse(&write(&scene), "again").unwrap();
+        assert_eq!((again.container, again.container_form), (scene.container, scene.container_form));
+        let mut session = open(&scene, 2);
+        let mut fluid = session.take_fluid().unwrap();
+        let mut view = hapflow::fluid::ParticleView::default();
+        fluid.snapshot(&mut view);
+        let filled = view.positions.len();
+        for k in 1..=50 {
+            fluid.compute(f64::from(k) * 0.02);
+        }
+        fluid.snapshot(&mut view);
+        assert_eq!(view.positions.len(), filled, "{shape}: none is lost");
+        let volume = filled as f64 * 0.005_f64.powi(3);
+        // A cap of the ball of 50 mm radius, or a disc of 50 mm.
+        let full = match shape {
+            "bowl" => std::f64::consts::PI * depth * depth * (0.05 - depth / 3.0),
+            _ => std::f64::consts::PI * 0.05 * 0.05 * depth,
+        };
+        assert!((volume / full - 1.0).abs() < 0.1, "{shape}: {volume} m³, not {full}");
+        let out = view.positions.iter().filter(|p| {
+            let from = if shape == "bowl" { p[1] - 0.05 } else { 0.0 };
+            p[0].hypot(p[2]).hypot(from) > 0.0501 || p[1] < -0.001
+        });
+        assert_eq!(out.count(), 0, "{shape}: all are within");
+        let top = view.positions.iter().map(|p| f64::from(p[1])).fold(0.0, f64::max);
+        assert!((top - depth * (volume / full)).abs() < 0.005, "{shape}: level {top} m");
+        let fastest = view.velocities.iter().map(|v| v[0].hypot(v[1]).hypot(v[2])).fold(0.0, f32::max);
+        assert!(fastest < 0.12, "{shape}: {fastest} m/s");
+    }
+    let told =
+        parse("[container]\nmin = [0, 0, 0]\nmax = [1, 2, 1]\nshape = \"bowl\"\n", "deep").unwrap_err();
+    assert!(told.to_string().contains("container (depth of a bowl) = 2"), "{told}");
+    let told =
+        parse("[container]\nmin = [0, 0, 0]\nmax = [1, 1, 1]\nshape = \"round\"\n", "odd").unwrap_err();
+    assert!(
+        told.to_string().contains("odd:4: container.shape = \"round\": must be one of box, cylinder, bowl"),
+        "{told}"
+    );
+}

@@ -84,7 +84,8 @@ HAPFLOW_API hapflow_result hapflow_scene_set_periodic(hapflow_scene scene, uint3
  * Errors: HANDLE, BUSY, FAULTED, VALUE, NOT_FINITE. */
 HAPFLOW_API hapflow_result hapflow_scene_set_ground(hapflow_scene scene, const double* height);
 
-/* Sets the inside of the open box, by its corners, m, each coordinate within 100. [main] With both null there is none.
+/* Sets the inside of the open box, by its corners, m, each coordinate within 100. [main] With both null there is none. The
+ * setting container.shape makes a round tank or a bowl of it.
  * Errors: HANDLE, BUSY, FAULTED, NULL (one of the two), VALUE, NOT_FINITE. */
 HAPFLOW_API hapflow_result hapflow_scene_set_container(hapflow_scene scene, const double min[3], const double max[3]);
 

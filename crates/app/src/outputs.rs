@@ -8,6 +8,7 @@ use crate::summary::Summary;
 use glam::DVec3;
 use hapflow_engine::run::{Outcome, Picture};
 use hapflow_engine::{Row, Scene, SceneError, settings};
+use hapflow_fluid::ContainerForm;
 use std::path::Path;
 
 /// Size of a frame picture.
@@ -73,7 +74,9 @@ fn draw(scene: &Scene, picture: &Picture) -> image::Image {
     let containers: Vec<Box3> = scene
         .container
         .iter()
-        .map(|c| Box3 { min: c.inner.min.as_vec3().to_array(), max: c.inner.max.as_vec3().to_array() })
+        // Round glass is not drawn; the water shows it.
+        .filter(|_| scene.container_form == ContainerForm::Box)
+        .map(|c| Box3 { min: c.min.as_vec3().to_array(), max: c.max.as_vec3().to_array() })
         .collect();
     let sources: Vec<Nozzle> = scene
         .sources
@@ -127,7 +130,7 @@ fn framed(scene: &Scene) -> ([f32; 3], [f32; 3]) {
     let (mut low, mut high) = (at - 2.0 * r, at + 2.0 * r);
     let mut include = |a: DVec3, b: DVec3| (low, high) = (low.min(a), high.max(b));
     if let Some(c) = scene.container {
-        include(c.inner.min, c.inner.max);
+        include(c.min, c.max);
     }
     let obstacles = scene.obstacles.iter().map(|o| (&o.form, o.position));
     for (form, position) in obstacles.chain(scene.bodies.iter().map(|b| (&b.form, b.position))) {

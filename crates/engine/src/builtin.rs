@@ -8,6 +8,8 @@ const SHIPPED: &[(&str, &str)] = &[
     ("tap-intermittent", include_str!("../../../scenes/tap-intermittent.toml")),
     ("waterfall", include_str!("../../../scenes/waterfall.toml")),
     ("tank", include_str!("../../../scenes/tank.toml")),
+    ("paddle", include_str!("../../../scenes/paddle.toml")),
+    ("bowl", include_str!("../../../scenes/bowl.toml")),
 ];
 
 /// Names and texts of the shipped scenes.

@@ -5,7 +5,9 @@ use crate::form::Form;
 use crate::{SceneError, Value, settings};
 use glam::DVec3;
 use hapflow_devices::{HandPreset, HandSettings, Segment};
-use hapflow_fluid::{Aabb, BodyConfig, FluidConfig, FluidSettings, MIN_MASS_RATIO, OpenBox, Source, World};
+use hapflow_fluid::{
+    Aabb, BodyConfig, Container, ContainerForm, FluidConfig, FluidSettings, MIN_MASS_RATIO, Source, World,
+};
 use hapflow_haptics::{CouplingKind, FilterSpec, GateSettings, Mapping, Rim, SolidFeel, Workspace};
 
 /// Who computes the fluid.
@@ -191,8 +193,10 @@ pub struct Scene {
     pub periodic: [bool; 3],
     /// Height of the ground, if there is one, m.
     pub ground: Option<f64>,
-    /// An open box.
-    pub container: Option<OpenBox>,
+    /// Inner corners of what holds the fluid, open above.
+    pub container: Option<Aabb>,
+    /// Its shape within them.
+    pub container_form: ContainerForm,
     /// Jets.
     pub sources: Vec<Source>,
     /// Boxes in which particles vanish.
@@ -239,6 +243,7 @@ impl Default for Scene {
             periodic: [false; 3],
             ground: None,
             container: None,
+            container_form: ContainerForm::Box,
             sources: Vec::new(),
             sinks: Vec::new(),
             pools: Vec::new(),
@@ -276,7 +281,7 @@ impl Scene {
             world: World {
                 bounds: self.bounds,
                 ground: self.ground,
-                container: self.container,
+                container: self.container.map(|inner| Container { inner, form: self.container_form }),
                 sources: self.sources.clone(),
                 sinks: self.sinks.clone(),
                 pools: self.pools.clone(),

@@ -3,7 +3,7 @@
 use crate::scene::{Change, FreeBody, MAX_BODIES, MAX_OBSTACLES, MAX_TOOLS, Obstacle, Scene, ToolSettings};
 use crate::settings::{self, Named};
 use crate::{SceneError, Value};
-use hapflow_fluid::{Aabb, OpenBox, Source};
+use hapflow_fluid::{Aabb, Source};
 
 /// Farthest that a corner or the ground may be from the origin, m.
 pub(crate) const FARTHEST_M: f64 = 100.0;
@@ -99,13 +99,12 @@ impl Scene {
         Ok(())
     }
 
-    /// Sets the inside of the open box, or takes it away.
+    /// Sets the inner corners of the container, or takes it away; its shape is the setting `container.shape`.
     ///
     /// # Errors
     /// As [`add_pool`](Self::add_pool).
     pub fn set_container(&mut self, inner: Option<Aabb>) -> Result<(), SceneError> {
-        self.container =
-            inner.map(|b| checked_box("container", b)).transpose()?.map(|inner| OpenBox { inner });
+        self.container = inner.map(|b| checked_box("container", b)).transpose()?;
         Ok(())
     }
 }

@@ -6,7 +6,7 @@ use crate::settings::{self, Named};
 use crate::{SceneError, Value};
 use glam::DVec3;
 use hapflow_devices::{HandPreset, HandSettings, Segment};
-use hapflow_fluid::{Aabb, OpenBox};
+use hapflow_fluid::Aabb;
 use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -78,7 +78,14 @@ impl Reader<'_> {
             ("ground", _) => scene.ground = Some(self.number(key, item, -FARTHEST_M, FARTHEST_M)?),
             ("bounds", DeValue::Table(t)) => scene.bounds = self.aabb(key, item, t)?,
             ("container", DeValue::Table(t)) => {
-                scene.container = Some(OpenBox { inner: self.aabb(key, item, t)? });
+                let mut corners = t.clone();
+                if let Some(shape) = corners.remove("shape") {
+                    let result = settings::set(scene, "container.shape", &self.value(&shape)?);
+                    result.map_err(|e| self.error_at(shape.span().start, &e.to_string()))?;
+                }
+                if !corners.is_empty() || t.is_empty() {
+                    scene.container = Some(self.aabb(key, item, &corners)?);
+                }
             }
             ("pool", DeValue::Array(list)) => scene.pools = self.boxes(key, list)?,
             ("sink", DeValue::Array(list)) => scene.sinks = self.boxes(key, list)?,

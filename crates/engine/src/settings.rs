@@ -6,7 +6,7 @@
 use crate::form::{Form, FormKind};
 use crate::scene::{BackendKind, DeviceKind, FreeBody, MotionOrigin, Obstacle, Scene, ToolSettings};
 use crate::{SceneError, Value};
-use hapflow_fluid::{InteractionMode, Kernel, Liquid, Solver, Source};
+use hapflow_fluid::{ContainerForm, InteractionMode, Kernel, Liquid, Solver, Source};
 use hapflow_haptics::{CouplingKind, FilterSpec};
 
 /// What a setting may be.
@@ -420,6 +420,22 @@ const RUN_AND_FLUID: &[Setting<Scene>] = &[
         fluid.two_way,
         "true: fluid and tool push each other; false: the tool pushes the fluid and feels nothing."
     ),
+    Setting {
+        path: "container.shape",
+        unit: "",
+        kind: Kind::Choice(&["box", "cylinder", "bowl"]),
+        live: FIXED,
+        about: "Shape of the container within its corners: a box, a round tank, or a bowl, which is a part of a hollow ball. Round ones are only felt by way of the fluid.",
+        get: |s| Value::Text(container_word(s.container_form).into()),
+        set: |s, v| {
+            s.container_form = match v.text() {
+                "cylinder" => ContainerForm::Cylinder,
+                "bowl" => ContainerForm::Bowl,
+                _ => ContainerForm::Box,
+            };
+            Ok(())
+        },
+    },
 ];
 
 /// Of the first tool what is not its shape, and all the rest.
@@ -638,6 +654,15 @@ fn liquid_name(liquid: Liquid) -> &'static str {
 /// so that the others are set over them; where settings come one by one the last wins.
 pub fn is_shorthand(path: &str) -> bool {
     ["fluid.liquid", "fluid.rest_particles"].contains(&path)
+}
+
+/// How a scene calls this shape of its container.
+pub(crate) const fn container_word(form: ContainerForm) -> &'static str {
+    match form {
+        ContainerForm::Box => "box",
+        ContainerForm::Cylinder => "cylinder",
+        ContainerForm::Bowl => "bowl",
+    }
 }
 
 fn set_filter(scene: &mut Scene, value: &Value) -> Result<(), String> {

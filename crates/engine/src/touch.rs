@@ -3,7 +3,7 @@
 
 use crate::scene::{MAX_OBSTACLES, Scene, ToolSettings};
 use glam::DVec3;
-use hapflow_fluid::Shape;
+use hapflow_fluid::{ContainerForm, Shape};
 use hapflow_haptics::{
     Pose, Proxy, Solid, SolidFeel, SolidKind, SolidShape, ToolState, Touching, ground, open_box,
 };
@@ -85,9 +85,10 @@ impl Touch {
         let (paths_in, paths) = latest(start);
         let (report, report_out) = latest(Touching::nothing(&ToolState::at(tool.position)));
         let mut solids: Vec<Solid> = scene.ground.map(ground).into_iter().collect();
-        if let Some(container) = scene.container {
+        // The proxy takes solids for convex, which the walls of a box are, and a round one is not.
+        if let Some(inner) = scene.container.filter(|_| scene.container_form == ContainerForm::Box) {
             // Their thickness is the fluid's, which keeps a particle on each side.
-            solids.extend(open_box(container.inner.min, container.inner.max, 2.0 * scene.fluid.spacing));
+            solids.extend(open_box(inner.min, inner.max, 2.0 * scene.fluid.spacing));
         }
         let fixed = solids.len();
         let obstacle = |(k, path): (usize, &SolidPath)| {

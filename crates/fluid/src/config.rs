@@ -1,6 +1,6 @@
 //! What a fluid is made of: settings that may change while it runs, and the world it stands in.
 
-use crate::{FluidError, Kernel, Shape, limits, solver};
+use crate::{Container, FluidError, Kernel, Shape, limits, solver};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -157,13 +157,6 @@ impl Aabb {
     }
 }
 
-/// An open-topped container: floor at `min.y`, walls up to `max.y`, the inside between the corners.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OpenBox {
-    /// Inner corners, m.
-    pub inner: Aabb,
-}
-
 /// A round jet source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
@@ -244,8 +237,8 @@ pub struct World {
     pub periodic: [bool; 3],
     /// Height of a level ground, m.
     pub ground: Option<f64>,
-    /// An open box.
-    pub container: Option<OpenBox>,
+    /// What holds the fluid.
+    pub container: Option<Container>,
     /// Jets.
     pub sources: Vec<Source>,
     /// Particles inside them vanish.
@@ -382,6 +375,7 @@ impl FluidConfig {
                 return Err(FluidError::Box { name, min: b.min, max: b.max });
             }
         }
+        self.world.container.map_or(Ok(()), |c| c.check())?;
         let size = self.world.bounds.max - self.world.bounds.min;
         for axis in (0..3).filter(|&a| self.world.periodic[a]) {
             range("bounds (period)", size[axis], 3.0 * self.settings.support_length(), 1e3)?;

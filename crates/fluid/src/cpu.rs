@@ -177,7 +177,7 @@ impl Fluid {
             method: Method::new(config),
             tension: Tension::new(config),
             viscosity: Viscosity::new(config),
-            walls: Walls::new(&config.world, config.settings.spacing),
+            walls: Walls::new(&config.world, &config.settings),
             periodic: Periodic::new(&config.world),
             plane: WallTable::plane(config.settings.kernel, support),
             tables: BodyTables::new(&config.world.bodies, config.settings.kernel, support),
@@ -219,7 +219,7 @@ impl Fluid {
             self.plane = WallTable::plane(kernel, support);
         }
         self.tables.update(&new.world.bodies, kernel, support);
-        self.walls = Walls::new(&new.world, new.settings.spacing);
+        self.walls = Walls::new(&new.world, &new.settings);
         self.periodic = Periodic::new(&new.world);
         let off = |config: &FluidConfig| config.settings.mode == InteractionMode::None;
         let switched_on = off(old) && !off(new);

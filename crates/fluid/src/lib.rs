@@ -14,6 +14,7 @@ mod analytic_jet;
 mod backend;
 mod body;
 mod config;
+mod container;
 mod control_volume;
 mod cpu;
 mod emitter;
@@ -44,9 +45,8 @@ mod wall;
 pub use analytic_jet::{AnalyticJet, jet_force};
 pub use backend::{FluidBackend, FluidError, FrameInput, FrameOutput, ParticleView};
 pub use body::{BodyDrive, BodyLoad, BodyMotion, BodySample, BodyState, MIN_MASS_RATIO};
-pub use config::{
-    Aabb, BodyConfig, FluidConfig, FluidSettings, InteractionMode, OpenBox, Solver, Source, World,
-};
+pub use config::{Aabb, BodyConfig, FluidConfig, FluidSettings, InteractionMode, Solver, Source, World};
+pub use container::{Container, ContainerForm};
 pub use control_volume::ControlVolume;
 pub use cpu::CpuBackend;
 pub use kernel::Kernel;

@@ -12,6 +12,9 @@ use std::collections::BTreeMap;
 /// and would hide them.
 const JITTER: f32 = 0.02;
 
+/// Least distance of a particle from a round wall at the start, in spacings.
+const CLEARANCE: f64 = 0.2;
+
 /// The pools of `config`, at rest under hydrostatic pressure, without what the bodies take up.
 pub(crate) fn fill(config: &FluidConfig) -> Result<Vec<Newborn>, FluidError> {
     let spacing = config.settings.spacing;
@@ -24,7 +27,10 @@ pub(crate) fn fill(config: &FluidConfig) -> Result<Vec<Newborn>, FluidError> {
     let periodic = Periodic::new(&config.world);
     let bodies: Vec<_> =
         config.world.bodies.iter().cloned().map(|b| BodyNow::new(&Body::new(b), spacing, periodic)).collect();
-    let free = |p: Vec3| bodies.iter().all(|b| b.contact(p, 0.0).is_none());
+    // A pool is a box: a round container takes its corners away.
+    let room = CLEARANCE * spacing;
+    let cut_off = |p: Vec3| config.world.container.is_some_and(|c| c.cuts_off(p.as_dvec3(), room));
+    let free = |p: Vec3| bodies.iter().all(|b| b.contact(p, 0.0).is_none()) && !cut_off(p);
     let mut random = Random::new(config.world.seed);
     let mut out = Vec::new();
     for pool in &config.world.pools {

@@ -89,7 +89,7 @@ mod tests {
     use crate::particles::Newborn;
     use crate::solids::Walls;
     use crate::wall::WallTable;
-    use crate::{Aabb, FluidSettings, OpenBox, World};
+    use crate::{Aabb, FluidSettings, World};
     use glam::DVec3;
 
     #[test]
@@ -97,7 +97,7 @@ mod tests {
         let inner = Aabb { min: DVec3::ZERO, max: DVec3::new(0.04, 1.0, 0.04) };
         let world = World {
             bounds: Aabb { min: DVec3::splat(-1.0), max: DVec3::splat(1.0) },
-            container: Some(OpenBox { inner }),
+            container: Some(crate::Container::open_box(inner)),
             ..World::default()
         };
         let settings = FluidSettings { spacing: 0.01, ..FluidSettings::default() };
@@ -105,7 +105,7 @@ mod tests {
         let mut particles = Particles::new();
         particles.extend(&[Newborn { position: Vec3::splat(0.005), ..Newborn::default() }; 100]);
         let (walls, plane) =
-            (Walls::new(&config.world, 0.01), WallTable::plane(config.settings.kernel, 0.027));
+            (Walls::new(&config.world, &config.settings), WallTable::plane(config.settings.kernel, 0.027));
         let tables = BodyTables::new(&[], crate::Kernel::Wendland, 0.027);
         let solids = Solids { walls: &walls, bodies: &[], plane: &plane, tables: &tables };
         restack(&mut particles, &config, &solids);

@@ -147,7 +147,7 @@ impl Rigid {
         for feeler in &self.feelers[a] {
             let arm = state.orientation * feeler.place;
             let place = (state.position + arm).as_vec3();
-            walls.visit(place, feeler.radius as f32, |distance, normal| {
+            walls.visit(place, feeler.radius as f32, |distance, normal, _| {
                 let (normal, depth) = (normal.as_dvec3(), feeler.radius - f64::from(distance));
                 let arms = [arm - normal * feeler.radius, DVec3::ZERO];
                 self.overlaps.push(Overlap { free: a, other: None, arms, normal, depth, impulse: 0.0 });
@@ -237,15 +237,15 @@ impl Mobility {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Aabb, BodyConfig, BodyDrive, BodyMotion, OpenBox, World};
+    use crate::{Aabb, BodyConfig, BodyDrive, BodyMotion, Container, FluidSettings, World};
 
     const G: DVec3 = DVec3::new(0.0, -9.81, 0.0);
 
     /// Bodies at these places; those that are not free stay.
     fn run(shapes: &[(Shape, DVec3, bool)], seconds: f64, density: f64) -> (Vec<Body>, Vec<BodyLoad>) {
         let inner = Aabb { min: DVec3::splat(-0.1), max: DVec3::splat(0.1) };
-        let world = World { container: Some(OpenBox { inner }), ..World::default() };
-        let (walls, periodic) = (Walls::new(&world, 0.005), Periodic::new(&world));
+        let world = World { container: Some(Container::open_box(inner)), ..World::default() };
+        let (walls, periodic) = (Walls::new(&world, &FluidSettings::default()), Periodic::new(&world));
         let mut bodies: Vec<_> = shapes
             .iter()
             .map(|(shape, position, _)| {
@@ -316,7 +316,7 @@ mod tests {
     fn two_free_bodies_keep_their_momentum() {
         let ball = Shape::Sphere { radius: 0.02 };
         let inner = World::default();
-        let (walls, periodic) = (Walls::new(&inner, 0.005), Periodic::new(&inner));
+        let (walls, periodic) = (Walls::new(&inner, &FluidSettings::default()), Periodic::new(&inner));
         let medium = Medium { density: 1000.0, gravity: DVec3::ZERO };
         let mut bodies: Vec<_> = [-0.019, 0.019]
             .map(|x| {

@@ -56,7 +56,11 @@ impl WallTable {
     /// For the surface of `shape`: exact for a sphere. A tube gets the sphere of equal mean curvature, which is
     /// all of a curvature that the integrals know in first order. Edges are taken for flat.
     pub fn for_shape(shape: &Shape, kernel: Kernel, support: f64) -> Self {
-        let curvature = shape.mean_curvature();
+        Self::round(shape.mean_curvature(), kernel, support)
+    }
+
+    /// For a wall of this mean curvature (1/m): see [`for_shape`](Self::for_shape).
+    pub fn round(curvature: f64, kernel: Kernel, support: f64) -> Self {
         if curvature == 0.0 {
             return Self::plane(kernel, support);
         }

@@ -1,7 +1,7 @@
 //! Worlds that several cases stand in.
 
 use glam::DVec3;
-use hapflow_fluid::{Aabb, BodyConfig, OpenBox, Shape, Source, World};
+use hapflow_fluid::{Aabb, BodyConfig, Container, Shape, Source, World};
 
 /// Nothing, within `bounds`.
 pub(crate) fn empty(bounds: Aabb) -> World {
@@ -19,7 +19,7 @@ pub(crate) fn container(size: DVec3) -> World {
     let inner = upright(size);
     let room = DVec3::splat(0.1 * size.max_element());
     let bounds = Aabb { min: inner.min - room, max: inner.max + room + DVec3::Y * size.y };
-    World { container: Some(OpenBox { inner }), ..empty(bounds) }
+    World { container: Some(Container::open_box(inner)), ..empty(bounds) }
 }
 
 /// A container filled to `water` (m), its walls twice as high.

@@ -2,10 +2,10 @@
 
 use crate::Value;
 use crate::scene::{Change, Scene};
-use crate::settings::{Named, SETTINGS, is_shorthand};
+use crate::settings::{Named, SETTINGS, container_word, is_shorthand};
 use glam::DVec3;
 use hapflow_devices::Segment;
-use hapflow_fluid::Aabb;
+use hapflow_fluid::{Aabb, ContainerForm};
 use std::fmt::Write as _;
 
 /// The scene as the text of a scene file, which [`parse`](crate::parse) makes the same scene of.
@@ -25,9 +25,7 @@ pub fn write(scene: &Scene) -> String {
     if scene.bounds != Scene::default().bounds {
         text += &aabb("[bounds]", &scene.bounds);
     }
-    if let Some(container) = &scene.container {
-        text += &aabb("[container]", &container.inner);
-    }
+    text += &container(scene);
     scene.pools.iter().for_each(|pool| text += &aabb("[[pool]]", pool));
     scene.sinks.iter().for_each(|sink| text += &aabb("[[sink]]", sink));
     scene.sources.iter().for_each(|source| text += &named(source));
@@ -40,6 +38,18 @@ pub fn write(scene: &Scene) -> String {
     text
 }
 
+fn container(scene: &Scene) -> String {
+    let shape = match scene.container_form {
+        ContainerForm::Box => String::new(),
+        round => format!("shape = {}\n", quoted(container_word(round))),
+    };
+    match &scene.container {
+        Some(inner) => aabb("[container]", inner) + &shape,
+        None if shape.is_empty() => shape,
+        None => format!("\n[container]\n{shape}"),
+    }
+}
+
 /// Whether the tools are written as `[[tool]]`: a single one needs a name only if it is not its number.
 fn has_tool_list(scene: &Scene) -> bool {
     !scene.more_tools.is_empty() || scene.tool.name != "0"
@@ -50,8 +60,9 @@ fn tables(scene: &Scene) -> String {
     let (usual, mut text, mut open) = (Scene::default(), String::new(), "");
     for setting in SETTINGS {
         let Some((table, field)) = setting.path.split_once('.') else { continue };
-        // Tools may have a list of their own.
-        let elsewhere = is_shorthand(setting.path) || (table == "tool" && has_tool_list(scene));
+        // Tools may have a list of their own, and a container stands with its corners.
+        let elsewhere =
+            is_shorthand(setting.path) || table == "container" || (table == "tool" && has_tool_list(scene));
         let now = setting.get(scene);
         if elsewhere || now == setting.get(&usual) {
             continue;

@@ -65,10 +65,8 @@ fn each_pass(config: &FluidConfig, check: impl Fn(&mut Particles, &dyn Fn(&Parti
         grid.sort(&mut particles, spacing, support as f32, &vec![false; n]);
         let mut neighbours = Neighbours::default();
         neighbours.find(arch, &grid, &particles, spacing, support as f32);
-        let (walls, plane) = (
-            Walls::new(&config.world, config.settings.spacing),
-            WallTable::plane(config.settings.kernel, support),
-        );
+        let (walls, plane) =
+            (Walls::new(&config.world, &config.settings), WallTable::plane(config.settings.kernel, support));
         let tables = BodyTables::new(&[], crate::Kernel::Wendland, 0.027);
         check(&mut particles, &|particles, run| {
             let solids = Solids { walls: &walls, bodies: &[], plane: &plane, tables: &tables };

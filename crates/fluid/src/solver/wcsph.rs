@@ -62,12 +62,13 @@ pub(crate) fn noise_filter(config: &FluidConfig) -> f64 {
 }
 
 /// Share of the filter that acts on quiet flow. From there it grows with what it filters, to the whole where H² |L| nears
-/// α c: a jet that breaks on a plate needs all of it, and on a body that is towed slowly all of it would be a drag of 1 %.
-pub(crate) const QUIET_SHARE: f32 = 0.2;
+/// α c: a jet that breaks on a plate needs all of it, and all of it would hold a body back that is towed slowly, by 1 % of
+/// its lift.
+pub(crate) const QUIET_SHARE: f32 = 0.1;
 
 /// How much more sound is damped in quiet fluid, where nothing else is lost by it: a column that has been let go stops
 /// bouncing in half a second and not in one and a half. A jet that is damped so ripples five times as much.
-const QUIET_DAMPING: f32 = 7.0;
+const QUIET_DAMPING: f32 = 6.2;
 /// Largest bulk viscosity, in dx²/dt: noise grows from 4 on (measured).
 const MOST_DAMPING: f32 = 2.8;
 

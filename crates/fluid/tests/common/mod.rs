@@ -3,8 +3,8 @@
 
 use glam::DVec3;
 use hapflow_fluid::{
-    Aabb, BodyConfig, BodyDrive, BodyMotion, BodySample, CpuBackend, FluidBackend, FluidConfig,
-    FluidSettings, FrameInput, FrameOutput, OpenBox, ParticleView, Shape, Solver, Source, World,
+    Aabb, BodyConfig, BodyDrive, BodyMotion, BodySample, Container, CpuBackend, FluidBackend, FluidConfig,
+    FluidSettings, FrameInput, FrameOutput, ParticleView, Shape, Solver, Source, World,
 };
 use std::f64::consts::PI;
 
@@ -54,7 +54,7 @@ pub fn tank_scene(solver: Solver, side: f64, cells: u32, radius: f64) -> FluidCo
     let inner = aabb([-half, 0.0, -half], [half, 2.0 * side, half]);
     let world = World {
         bounds: aabb([-side, -0.5 * side, -side], [side, 3.0 * side, side]),
-        container: Some(OpenBox { inner }),
+        container: Some(Container::open_box(inner)),
         pools: vec![aabb([-half, 0.0, -half], [half, side, half])],
         bodies: vec![body(Shape::Sphere { radius }, DVec3::Y * half)],
         ..World::default()
