@@ -318,7 +318,7 @@ impl FluidConfig {
     }
 
     /// The most that the solver adds to the stated viscosity in a flow of this wavelength (m), Pa·s. `wcsph` adds the less
-    /// the longer the waves, and to quiet flow a fifth of this; in mode none nothing is viscous.
+    /// the longer the waves, and to quiet flow a tenth of this; in mode none nothing is viscous.
     /// `tests/effective_viscosity.rs` measures it.
     pub fn added_viscosity(&self, wavelength: f64) -> f64 {
         if self.settings.mode == InteractionMode::None {

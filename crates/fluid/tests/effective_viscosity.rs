@@ -57,10 +57,10 @@ fn share(config: &FluidConfig, wave_number: f64, speed: f64) -> f64 {
     let s = &config.settings;
     let bend = (wave_number * s.support_length()).powi(2) * speed;
     // Weighted with the energy that is lost, sin² of the height, the mean of |sin| is 8/(3π).
-    0.2 + 8.0 / (3.0 * PI) * bend / (s.artificial_viscosity * config.sound_speed())
+    0.1 + 8.0 / (3.0 * PI) * bend / (s.artificial_viscosity * config.sound_speed())
 }
 
-/// A weak filter and a fast flow, which wakes all of it; a strong one and a slow flow, which feels little more than a fifth.
+/// A weak filter and a fast flow, which wakes all of it; a strong one and a slow flow, which feels little more than a tenth.
 #[test]
 fn waves_of_shear_decay_by_the_stated_viscosity_and_the_reported_one() {
     let fast = [2.0, 3.0].map(|waves| (0.05, 1.0, 0.1, waves));

@@ -6,7 +6,7 @@ mod common;
 use common::{Run, aabb, body, momentum, vector};
 use glam::DVec3;
 use hapflow_fluid::{
-    Aabb, BodyDrive, BodySample, FluidConfig, FluidSettings, OpenBox, Shape, World, step_limits,
+    Aabb, BodyDrive, BodySample, Container, FluidConfig, FluidSettings, Shape, World, step_limits,
 };
 use std::f64::consts::TAU;
 
@@ -116,7 +116,7 @@ fn a_stiff_pool_rests_on_its_floor() {
     let inner = aabb([-0.04, 0.0, -0.04], [0.04, 0.16, 0.04]);
     let world = World {
         bounds: aabb([-0.2; 3], [0.2; 3]),
-        container: Some(OpenBox { inner }),
+        container: Some(Container::open_box(inner)),
         pools: vec![aabb([-0.04, 0.0, -0.04], [0.04, 0.08, 0.04])],
         ..World::default()
     };
