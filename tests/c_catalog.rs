@@ -53,7 +53,7 @@ fn a_setting_says_what_the_engine_says() {
     assert_eq!(facts(find("fluid.max_particles")), (2, 1, 1.0, 5e6));
     assert_eq!(facts(find("fluid.two_way")), (3, 1, 0.0, 0.0));
     let solver = find("fluid.solver");
-    assert_eq!((facts(solver), shown(solver.choices)), ((4, 1, 0.0, 0.0), "wcsph\nmuller"));
+    assert_eq!((facts(solver), shown(solver.choices)), ((4, 1, 0.0, 0.0), "wcsph\ndfsph\nmuller"));
     assert_eq!(shown(solver.usual), "wcsph");
     assert_eq!(facts(find("run.filter")), (5, 0, 0.0, 0.0));
     assert_eq!(facts(find("fluid.gravity")), (6, 1, -100.0, 100.0));
@@ -156,7 +156,7 @@ fn the_build_says_what_it_has_even_before_the_version() {
         found.unwrap_or_else(|| panic!("no {key} in {info}"))
     };
     assert_eq!((line("version"), line("abi")), (env!("CARGO_PKG_VERSION"), "1"));
-    assert_eq!((line("solvers"), line("couplings")), ("wcsph muller", "direct momentum"));
+    assert_eq!((line("solvers"), line("couplings")), ("wcsph dfsph muller", "direct momentum"));
     assert_eq!((line("backends"), line("devices")), ("cpu analytic-jet", "null replay hand"));
     assert!(line("scenes").starts_with("tap ") && line("target").contains(std::env::consts::ARCH));
     assert!(!line("features").contains("test-hooks"));

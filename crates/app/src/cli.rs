@@ -68,7 +68,7 @@ pub struct RunArgs {
     /// What smooths the force: none, bartlett-hann:11@fluid, boxcar:10@servo, butterworth:50, one-euro:5:0.5, auto.
     #[arg(long, value_name = "NAME")]
     pub filter: Option<String>,
-    /// How the fluid is solved: wcsph, muller (the thesis's).
+    /// How the fluid is solved: wcsph, dfsph, muller (the thesis's).
     #[arg(long, value_name = "NAME")]
     pub solver: Option<String>,
     /// Fluid frames a second.
@@ -111,7 +111,7 @@ pub struct ValidateArgs {
     /// List the cases with their references and parameters instead.
     #[arg(long)]
     pub list: bool,
-    /// How the fluid is solved: wcsph, muller.
+    /// How the fluid is solved: wcsph, dfsph, muller.
     #[arg(long, value_name = "NAME")]
     pub solver: Option<String>,
     /// Particle spacings in m, in place of each case's own three.

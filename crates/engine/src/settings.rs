@@ -251,7 +251,7 @@ const RUN_AND_FLUID: &[Setting<Scene>] = &[
         },
     },
     choice!("run.motion_origin", FIXED, run.motion_origin, ["tool" => MotionOrigin::Tool, "scene" => MotionOrigin::Scene], "Where that motion begins: at the tool's start, in the device's axes, or where it says in the scene, as a recording has it."),
-    choice!("fluid.solver", LIVE, fluid.solver, ["wcsph" => Solver::Wcsph, "muller" => Solver::Muller], "`wcsph`: stiff, with density diffusion and analytic walls; `muller`: the thesis's."),
+    choice!("fluid.solver", LIVE, fluid.solver, ["wcsph" => Solver::Wcsph, "dfsph" => Solver::Dfsph, "muller" => Solver::Muller], "`wcsph`: stiff, with density diffusion and analytic walls; `dfsph`: incompressible by iteration, the same walls; `muller`: the thesis's."),
     choice!("fluid.mode", LIVE, fluid.mode, ["full" => InteractionMode::Full, "none" => InteractionMode::None, "mixed" => InteractionMode::Mixed], "Which particles act on which: all; none (gravity and contacts only); or in every other sub-step."),
     number!(
         "fluid.spacing",
@@ -280,7 +280,7 @@ const RUN_AND_FLUID: &[Setting<Scene>] = &[
         0.0..=4.0,
         LIVE,
         fluid.support,
-        "Influence radius of a particle; 0 takes the solver's own (wcsph 2.7, muller 2.0), else at least 1.2."
+        "Influence radius of a particle; 0 takes the solver's own (wcsph and dfsph 2.7, muller 2.0), else at least 1.2."
     ),
     Setting {
         path: "fluid.liquid",
@@ -327,7 +327,7 @@ const RUN_AND_FLUID: &[Setting<Scene>] = &[
         0.0..=1e7,
         LIVE,
         fluid.background_pressure,
-        "Pressure of wcsph that all is under: for a fluid without free surface, which may then pull."
+        "Pressure of wcsph and dfsph that all is under: for a fluid without free surface, which may then pull."
     ),
     number!(
         "fluid.surface_tension",
@@ -376,6 +376,20 @@ const RUN_AND_FLUID: &[Setting<Scene>] = &[
         LIVE,
         fluid.acoustic_damping,
         "ζ of wcsph: takes sound out."
+    ),
+    number!(
+        "fluid.tolerance",
+        "",
+        1e-4..=0.5,
+        LIVE,
+        fluid.tolerance,
+        "Share of the compression by gravity and flow that the pressure of dfsph may leave unanswered."
+    ),
+    integer!(
+        "fluid.max_iterations",
+        1.0..=1000.0,
+        fluid.max_iterations,
+        "Most iterations of each solve of dfsph in a sub-step."
     ),
     number!("fluid.damping", "1/s", 0.0..=1000.0, LIVE, fluid.damping, "Rate at which all velocities decay."),
     number!(
@@ -1021,7 +1035,7 @@ mod tests {
         assert_eq!(text, "fluid.viscosity = -1: must be a number from 0 to 10000 Pa·s");
         assert!(set(&mut scene, "fluid.viscosity", &Value::Number(f64::NAN)).is_err());
         let text = set(&mut scene, "fluid.solver", &Value::Text("sph".into())).unwrap_err().to_string();
-        assert_eq!(text, "fluid.solver = \"sph\": must be one of wcsph, muller");
+        assert_eq!(text, "fluid.solver = \"sph\": must be one of wcsph, dfsph, muller");
         assert!(set(&mut scene, "run.filter", &Value::Text("hann:0".into())).is_err());
         assert_eq!(scene, Scene::default());
     }

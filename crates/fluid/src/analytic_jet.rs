@@ -119,7 +119,7 @@ impl FluidBackend for AnalyticJet {
     fn submit(&mut self, frame: &FrameInput<'_>) {
         let dt = frame.duration / Self::SAMPLES as f64;
         // A jet in closed form has no mass that a body would carry along.
-        let medium = Medium { density: 0.0, gravity: self.config.settings.gravity };
+        let medium = Medium { density: 0.0, gravity: self.config.settings.gravity, prompt: false };
         let mut loads = vec![BodyLoad::default(); self.bodies.len()];
         for (body, motion) in self.bodies.iter_mut().zip(frame.bodies) {
             body.begin_frame(motion, frame.duration);

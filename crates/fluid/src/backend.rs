@@ -91,6 +91,8 @@ pub struct FrameOutput {
     pub particles: usize,
     /// Sub-steps taken.
     pub substeps: usize,
+    /// Iterations of the solves of all sub-steps; 0 where nothing is solved by iteration.
+    pub iterations: usize,
     /// Highest particle speed in the frame, m/s.
     pub max_speed: f64,
     /// True when the frame hit a limit: particles lost to non-finite values, or speeds cut by the last guard.

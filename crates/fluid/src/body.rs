@@ -117,6 +117,8 @@ pub(crate) struct Body {
     pub state: BodySample,
     /// Acceleration, m/s²: the wall pressure is extrapolated with it. Of a led body its mean over the frame.
     pub acceleration: DVec3,
+    /// Acceleration by which the fluid last moved a driven body, m/s², where it is swayed by a prompt one.
+    yielded: DVec3,
     drive: BodyDrive,
 }
 
@@ -127,6 +129,8 @@ pub(crate) struct Medium {
     pub density: f64,
     /// Gravity, m/s².
     pub gravity: DVec3,
+    /// Whether the fluid answers the acceleration of a body within the same sub-step, with up to the displaced mass.
+    pub prompt: bool,
 }
 
 impl Body {
@@ -135,6 +139,7 @@ impl Body {
             state: BodySample::at(config.position),
             config,
             acceleration: DVec3::ZERO,
+            yielded: DVec3::ZERO,
             drive: BodyDrive::Led,
         }
     }
@@ -187,11 +192,25 @@ impl Body {
     pub fn push(&mut self, load: &BodyLoad, medium: &Medium, dt: f64) {
         match self.drive {
             BodyDrive::Led => {}
+            BodyDrive::Driven { .. } if self.is_swayed_by(medium) => self.yield_to(load, medium, dt),
             BodyDrive::Driven { .. } => {
                 self.state.velocity += load.force() * (dt * self.contact_inverse_mass());
             }
             BodyDrive::Free => self.fall(load, medium, dt),
         }
+    }
+
+    /// Whether a fluid answers at once with more mass than a driven body has.
+    fn is_swayed_by(&self, medium: &Medium) -> bool {
+        medium.prompt && self.contact_inverse_mass() * self.carried(medium) > 1.0
+    }
+
+    /// As in `fall`, the mass that answers is on both sides.
+    fn yield_to(&mut self, load: &BodyLoad, medium: &Medium, dt: f64) {
+        let (carried, inverse) = (self.carried(medium), self.contact_inverse_mass());
+        let pull = load.force() + carried * self.yielded;
+        self.yielded = inverse * pull / (1.0 + inverse * carried);
+        self.state.velocity += self.yielded * dt;
     }
 
     /// The fluid's force answers the acceleration with up to the displaced mass: the wall pressure is extrapolated
@@ -389,7 +408,7 @@ mod tests {
     #[test]
     fn a_free_body_falls_as_its_mass_and_the_carried_fluid_say() {
         let shape = Shape::Sphere { radius: 0.05 };
-        let medium = Medium { density: 1000.0, gravity: DVec3::new(0.0, -9.81, 0.0) };
+        let medium = Medium { density: 1000.0, gravity: DVec3::new(0.0, -9.81, 0.0), prompt: false };
         let displaced = medium.density * shape.volume();
         for ratio in [0.05, 0.5, 1.0, 5.0] {
             let config =
@@ -409,12 +428,36 @@ mod tests {
         }
     }
 
+    /// A driven body that a fluid answers at once moves as its own and the added mass say, however light it is.
+    #[test]
+    fn a_driven_body_yields_to_a_prompt_fluid() {
+        let shape = Shape::Sphere { radius: 0.05 };
+        let medium = Medium { density: 1000.0, gravity: DVec3::ZERO, prompt: true };
+        let displaced = medium.density * shape.volume();
+        for ratio in [MIN_MASS_RATIO, 0.9, 1.1, 10.0] {
+            let config =
+                BodyConfig { shape: shape.clone(), mass: ratio * displaced, ..BodyConfig::default() };
+            let mut body = Body::new(config);
+            let path = [BodySample::at(DVec3::ZERO)];
+            let motion = BodyMotion { drive: BodyDrive::Driven { velocity: DVec3::ZERO }, path: &path };
+            body.begin_frame(&motion, 0.01);
+            let mut last = (DVec3::ZERO, DVec3::ZERO);
+            for _ in 0..400 {
+                let answered = (body.state.velocity - last.0) / 1e-3;
+                last = (body.state.velocity, answered);
+                let force = displaced * (DVec3::Y - 0.5 * answered);
+                body.push(&BodyLoad { pressure_force: force, ..BodyLoad::default() }, &medium, 1e-3);
+            }
+            assert!((last.1.y * (ratio + 0.5) - 1.0).abs() < 1e-9, "{ratio}: {last:?}");
+        }
+    }
+
     #[test]
     fn a_free_body_keeps_its_spin_momentum() {
         let shape = Shape::Box { size: DVec3::new(0.1, 0.2, 0.3) };
         let mut body = Body::new(BodyConfig { shape: shape.clone(), ..BodyConfig::default() });
         body.state.angular_velocity = DVec3::new(3.0, 0.1, 0.2);
-        let medium = Medium { density: 0.0, gravity: DVec3::ZERO };
+        let medium = Medium { density: 0.0, gravity: DVec3::ZERO, prompt: false };
         let motion = BodyMotion { drive: BodyDrive::Free, path: &[] };
         body.begin_frame(&motion, 0.01);
         let momentum = |b: &Body| {
@@ -441,7 +484,8 @@ mod tests {
         let motion = BodyMotion { drive: BodyDrive::Driven { velocity: DVec3::X }, path: &[] };
         body.begin_frame(&motion, 0.01);
         let load = BodyLoad { pressure_force: DVec3::Y, ..BodyLoad::default() };
-        body.push(&load, &Medium { density: 1000.0, gravity: DVec3::NEG_Y }, 1.0);
+        let medium = Medium { density: 1000.0, gravity: DVec3::NEG_Y, prompt: false };
+        body.push(&load, &medium, 1.0);
         body.advance(&motion, 1.0, 0.01);
         assert!((body.state.velocity - DVec3::new(1.0, 0.4, 0.0)).length() < 1e-12);
         assert!((body.state.position - DVec3::new(0.01, 0.004, 0.0)).length() < 1e-12);

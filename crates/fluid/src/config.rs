@@ -13,6 +13,9 @@ pub enum Solver {
     /// Weakly compressible SPH with a stiff state equation and density diffusion (δ-SPH), walls and bodies as
     /// analytic volumes.
     Wcsph,
+    /// Divergence-free SPH: incompressible by iteration, with the walls and bodies of `wcsph`. Its sub-steps follow the
+    /// flow and not a speed of sound.
+    Dfsph,
 }
 
 /// Which particles act on which. It may be switched while the fluid runs.
@@ -35,9 +38,9 @@ pub struct FluidSettings {
     pub mode: InteractionMode,
     /// Rest particle spacing dx, m: a particle stands for ρ₀ dx³ of mass.
     pub spacing: f64,
-    /// Kernel of `wcsph`; `muller` has three of its own.
+    /// Kernel of `wcsph`; `muller` has three of its own, and `dfsph` takes Wendland's.
     pub kernel: Kernel,
-    /// Kernel support in spacings; 0 takes the solver's own (2.7 for `wcsph`, 2 for `muller`).
+    /// Kernel support in spacings; 0 takes the solver's own (2.7 for `wcsph` and `dfsph`, 2 for `muller`).
     pub support: f64,
     /// Rest density ρ₀, kg/m³.
     pub rest_density: f64,
@@ -64,8 +67,12 @@ pub struct FluidSettings {
     pub shifting: f64,
     /// Acoustic damper ζ of `wcsph`, in units of c dx.
     pub acoustic_damping: f64,
-    /// Pressure of `wcsph` that all is under, Pa, for a fluid without free surface: what is below it can pull.
+    /// Pressure of `wcsph` and `dfsph` that all is under, Pa, for a fluid without free surface: what is below it can pull.
     pub background_pressure: f64,
+    /// Share of the compression by gravity and flow that the pressure of `dfsph` may leave unanswered.
+    pub tolerance: f64,
+    /// Most iterations of each solve of `dfsph` in a sub-step.
+    pub max_iterations: usize,
     /// Rate at which velocities decay everywhere, 1/s.
     pub damping: f64,
     /// Largest distance that a particle may travel in one fluid frame, m; 0 sets no cap.
@@ -103,6 +110,8 @@ impl Default for FluidSettings {
             shifting: 0.07,
             acoustic_damping: 0.5,
             background_pressure: 0.0,
+            tolerance: 0.02,
+            max_iterations: 50,
             damping: 0.0,
             max_displacement: 0.0,
             lifetime: 0.0,
@@ -120,9 +129,14 @@ impl FluidSettings {
     pub fn support_length(&self) -> f64 {
         let own = match self.solver {
             Solver::Muller => 2.0,
-            Solver::Wcsph => 2.7,
+            Solver::Wcsph | Solver::Dfsph => 2.7,
         };
         self.spacing * if self.support > 0.0 { self.support } else { own }
+    }
+
+    /// The kernel that the pair loops and walls of `wcsph` and `dfsph` take.
+    pub(crate) fn kernel_in_use(&self) -> Kernel {
+        if self.solver == Solver::Dfsph { Kernel::Wendland } else { self.kernel }
     }
 
     /// Mass of one particle, kg.
@@ -312,8 +326,8 @@ impl FluidConfig {
     pub fn sound_speed(&self) -> f64 {
         match self.settings.solver {
             Solver::Muller => self.settings.stiffness.max(0.0).sqrt(),
-            Solver::Wcsph if self.settings.sound_speed > 0.0 => self.settings.sound_speed,
-            Solver::Wcsph => 10.0 * self.reference_speed(),
+            Solver::Wcsph | Solver::Dfsph if self.settings.sound_speed > 0.0 => self.settings.sound_speed,
+            Solver::Wcsph | Solver::Dfsph => 10.0 * self.reference_speed(),
         }
     }
 
@@ -355,6 +369,8 @@ impl FluidConfig {
         range("fluid.shifting", s.shifting, 0.0, 0.5)?;
         range("fluid.acoustic_damping", s.acoustic_damping, 0.0, 1.0)?;
         range("fluid.background_pressure", s.background_pressure, 0.0, 1e7)?;
+        range("fluid.tolerance", s.tolerance, 1e-4, 0.5)?;
+        range("fluid.max_iterations", s.max_iterations as f64, 1.0, 1000.0)?;
         range("fluid.damping", s.damping, 0.0, 1e3)?;
         range("fluid.max_displacement", s.max_displacement, 0.0, 10.0)?;
         range("fluid.lifetime", s.lifetime, 0.0, 1e6)?;

@@ -15,6 +15,7 @@ use crate::periodic::Periodic;
 use crate::restack::restack;
 use crate::rigid::Rigid;
 use crate::solids::{Meeting, Solids, Walls};
+use crate::solver::dfsph::{Dfsph, Solves, Surroundings};
 use crate::solver::muller::Muller;
 use crate::solver::tension::{Pull, Tension};
 use crate::solver::viscosity::{Room, Viscosity};
@@ -111,6 +112,7 @@ impl FluidBackend for CpuBackend {
 enum Method {
     Muller(Muller),
     Wcsph(Wcsph),
+    Dfsph(Dfsph),
 }
 
 /// State and scratch of the fluid.
@@ -140,6 +142,7 @@ struct Fluid {
     pulls: Vec<Pull>,
     room: Room,
     rates: Vec<Rates>,
+    solves: Solves,
     dead: Vec<bool>,
     images: Vec<(u32, Vec3)>,
     newborn: Vec<Newborn>,
@@ -179,8 +182,8 @@ impl Fluid {
             viscosity: Viscosity::new(config),
             walls: Walls::new(&config.world, &config.settings),
             periodic: Periodic::new(&config.world),
-            plane: WallTable::plane(config.settings.kernel, support),
-            tables: BodyTables::new(&config.world.bodies, config.settings.kernel, support),
+            plane: WallTable::plane(config.settings.kernel_in_use(), support),
+            tables: BodyTables::new(&config.world.bodies, config.settings.kernel_in_use(), support),
             rigid: Rigid::default(),
             time: 0.0,
             substep: 0,
@@ -195,6 +198,7 @@ impl Fluid {
             pulls: Vec::new(),
             room: Room::default(),
             rates: Vec::new(),
+            solves: Solves::default(),
             dead: Vec::new(),
             images: Vec::new(),
             newborn: Vec::new(),
@@ -213,7 +217,8 @@ impl Fluid {
             body.config = config.clone();
         }
         self.emitters.resize(new.world.sources.len(), Emitter::default());
-        let kernels = |config: &FluidConfig| (config.settings.kernel, config.settings.support_length());
+        let kernels =
+            |config: &FluidConfig| (config.settings.kernel_in_use(), config.settings.support_length());
         let (kernel, support) = kernels(new);
         if kernels(old) != kernels(new) {
             self.plane = WallTable::plane(kernel, support);
@@ -252,7 +257,8 @@ impl Fluid {
         frame: &FrameInput<'_>,
         output: &mut FrameOutput,
     ) {
-        let speed = f64::from(self.max_speed).max(config.reference_speed()).max(self.tool_speed(frame));
+        let seen = f64::from(self.max_speed).max(self.tool_speed(frame));
+        let speed = limits::expected_speed(config, seen, frame.duration);
         let needed = limits::substeps(config, frame.duration, speed);
         // A frame of no length changes nothing.
         let steps = if frame.duration > 0.0 { needed.min(config.settings.max_substeps) } else { 0 };
@@ -264,6 +270,7 @@ impl Fluid {
             for (mean, load) in output.loads.iter_mut().zip(&self.step_loads) {
                 mean.add_scaled(load, 1.0 / steps as f64);
             }
+            output.iterations += self.solves.iterations;
             output.max_speed = output.max_speed.max(f64::from(self.max_speed));
         }
         self.finish(frame, steps, output);
@@ -275,7 +282,7 @@ impl Fluid {
         }
         self.rigid.take_shapes(&self.bodies);
         self.degraded = false;
-        output.max_speed = 0.0;
+        (output.max_speed, output.iterations) = (0.0, 0);
         output.loads.clear();
         output.loads.resize(self.bodies.len(), BodyLoad::default());
     }
@@ -332,6 +339,7 @@ impl Fluid {
         self.now.clear();
         self.now.extend(self.bodies.iter().map(|b| BodyNow::new(b, margin, self.periodic)));
         self.step_loads.fill(BodyLoad::default());
+        self.solves.rest();
         if self.interacts(config.settings.mode) {
             // In mixed mode a sub-step with forces gives the push of the next one too.
             let mixed = config.settings.mode == InteractionMode::Mixed;
@@ -348,7 +356,8 @@ impl Fluid {
         }
         self.integrate(config, step);
         let s = &config.settings;
-        let medium = Medium { density: s.rest_density, gravity: s.gravity };
+        let prompt = s.solver == Solver::Dfsph;
+        let medium = Medium { density: s.rest_density, gravity: s.gravity, prompt };
         for (body, load) in self.bodies.iter_mut().zip(&self.step_loads) {
             body.push(load, &medium, step.dt);
         }
@@ -431,7 +440,7 @@ impl Fluid {
 
     /// Whether the solver knows walls by their integrals, and not by contacts alone.
     fn meets_walls(&self) -> bool {
-        matches!(self.method, Method::Wcsph(_))
+        !matches!(self.method, Method::Muller(_))
     }
 
     fn forces(&mut self, arch: pulp::Arch, dt: f64) {
@@ -465,6 +474,12 @@ impl Fluid {
                 let (rates, scratch) = (&self.rates, &mut self.scratch);
                 w.accelerations(pass!(), rates, scratch, &mut self.rows, &mut self.step_loads);
             }
+            Method::Dfsph(d) => {
+                let (neighbours, meetings) = (&self.neighbours, &self.meetings);
+                let around = Surroundings { arch, neighbours, meetings, dt, speed: self.max_speed };
+                let (rows, loads) = (&mut self.rows, &mut self.step_loads);
+                d.step(around, &mut self.particles, &mut self.solves, &mut self.scratch, rows, loads);
+            }
         }
         if let Some(t) = self.tension {
             t.normals(pass!(), &mut self.scratch, &mut self.normals);
@@ -490,6 +505,7 @@ impl Fluid {
         let looked_up = self.meets_walls() && self.interacts(s.mode);
         let mut fastest = 0.0_f32;
         for i in 0..self.particles.len() {
+            let shift = self.shift(i);
             let p = &mut self.particles;
             if p.is_image(i) {
                 continue;
@@ -507,7 +523,6 @@ impl Fluid {
                 velocity *= step.cap / speed;
                 self.degraded |= speed > step.guard;
             }
-            let shift = self.rates.get(i).map_or(Vec3::ZERO, |r| r.shift);
             let mut state = (position + velocity * dt + shift, velocity);
             // Who meets nothing within the support comes to no surface in one sub-step.
             if !(looked_up && self.meetings.of(i).is_empty()) {
@@ -526,6 +541,14 @@ impl Fluid {
         self.max_speed = if fastest.is_finite() { fastest } else { step.cap };
     }
 
+    /// What the solver shifts particle `i` by in this sub-step, beside its motion, m.
+    fn shift(&self, i: usize) -> Vec3 {
+        match self.method {
+            Method::Dfsph(_) => self.solves.shift(i),
+            Method::Muller(_) | Method::Wcsph(_) => self.rates.get(i).map_or(Vec3::ZERO, |r| r.shift),
+        }
+    }
+
     fn snapshot(&self, config: &FluidConfig, view: &mut ParticleView) {
         let p = &self.particles;
         let n = p.len();
@@ -537,7 +560,7 @@ impl Fluid {
         view.ids.clear();
         view.ids.extend_from_slice(&p.id[..n]);
         view.pressures.clear();
-        let scale = if matches!(self.method, Method::Wcsph(_)) { density } else { 1.0 };
+        let scale = if self.meets_walls() { density } else { 1.0 };
         view.pressures.extend(p.p[..n].iter().map(|&p| p * scale));
     }
 }
@@ -546,6 +569,7 @@ impl Method {
     fn new(config: &FluidConfig) -> Self {
         match config.settings.solver {
             Solver::Muller => Self::Muller(Muller::new(config)),
+            Solver::Dfsph => Self::Dfsph(Dfsph::new(config)),
             Solver::Wcsph => Self::Wcsph(Wcsph::new(config)),
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! A [`FluidBackend`] takes a [`FluidConfig`], steps one *fluid frame* at a time while the bodies follow the
 //! motion they are given, and answers with the load of the fluid on each body. Backends:
-//! [`CpuBackend`] (solvers [`Solver::Muller`] and [`Solver::Wcsph`], rayon and SIMD) and [`AnalyticJet`]
+//! [`CpuBackend`] (solvers [`Solver::Muller`], [`Solver::Wcsph`] and [`Solver::Dfsph`], rayon and SIMD) and [`AnalyticJet`]
 //! (closed form). [`twin`] is the plain scalar oracle that tests compare with, and [`ControlVolume`] the balance of
 //! momentum that knows nothing of loads.
 //!

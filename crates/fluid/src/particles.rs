@@ -17,9 +17,9 @@ pub(crate) struct Particles {
     pub u: Vec<f32>,
     pub v: Vec<f32>,
     pub w: Vec<f32>,
-    /// `wcsph`: pressure over rest density, m²/s². `muller`: pressure, Pa.
+    /// `wcsph`, `dfsph`: pressure over rest density, m²/s². `muller`: pressure, Pa.
     pub p: Vec<f32>,
-    /// `wcsph`: pressure that acts (damped, clamped), over rest density. `muller`: 1/density, m³/kg.
+    /// `wcsph`: pressure that acts (damped, clamped), over rest density. `dfsph`: the unknown of a solve. `muller`: 1/density, m³/kg.
     pub aux: Vec<f32>,
     /// `wcsph`: packing feedback, m²/s³. `muller`: density that is forgiven after a change of mode, kg/m³.
     pub slow: Vec<f32>,
@@ -31,7 +31,8 @@ pub(crate) struct Particles {
     pub age: Vec<f32>,
     /// Time for which the source still leads it, s.
     pub held: Vec<f32>,
-    /// `wcsph`: Laplacian of the velocity, 1/(m s); of this sub-step alone.
+    /// `wcsph`: Laplacian of the velocity, 1/(m s). `dfsph`: that, and in a solve what the unknowns make of the velocity
+    /// (m/s) or shift (m). Of this sub-step alone.
     pub lx: Vec<f32>,
     pub ly: Vec<f32>,
     pub lz: Vec<f32>,

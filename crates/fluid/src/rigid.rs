@@ -262,7 +262,7 @@ mod tests {
             let drive = if *free { BodyDrive::Free } else { BodyDrive::Led };
             body.begin_frame(&BodyMotion { drive, path: &[] }, 1.0);
         }
-        let medium = Medium { density, gravity: G };
+        let medium = Medium { density, gravity: G, prompt: false };
         let mut rigid = Rigid::default();
         rigid.take_shapes(&bodies);
         let (dt, mut loads) = (5e-4, vec![BodyLoad::default(); bodies.len()]);
@@ -317,7 +317,7 @@ mod tests {
         let ball = Shape::Sphere { radius: 0.02 };
         let inner = World::default();
         let (walls, periodic) = (Walls::new(&inner, &FluidSettings::default()), Periodic::new(&inner));
-        let medium = Medium { density: 1000.0, gravity: DVec3::ZERO };
+        let medium = Medium { density: 1000.0, gravity: DVec3::ZERO, prompt: false };
         let mut bodies: Vec<_> = [-0.019, 0.019]
             .map(|x| {
                 Body::new(BodyConfig { shape: ball.clone(), position: DVec3::X * x, ..BodyConfig::default() })

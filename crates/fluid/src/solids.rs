@@ -54,8 +54,9 @@ impl Vessel {
 impl Walls {
     pub fn new(world: &World, settings: &FluidSettings) -> Self {
         let round = world.container.filter(|c| c.form != ContainerForm::Box);
-        let table =
-            |c: Container| WallTable::round(c.mean_curvature(), settings.kernel, settings.support_length());
+        let table = |c: Container| {
+            WallTable::round(c.mean_curvature(), settings.kernel_in_use(), settings.support_length())
+        };
         Self {
             ground: world.ground.map(|y| y as f32),
             vessel: world.container.as_ref().map(Vessel::new),

@@ -33,8 +33,10 @@ fn levels(view: &ParticleView, spacing: f64) -> [f64; 4] {
 
 #[test]
 fn a_ball_is_carried_by_the_water_that_it_displaces() {
-    for cells in [14, 18] {
-        let config = tank_scene(Solver::Wcsph, SIDE, cells, RADIUS);
+    for (solver, cells) in
+        [(Solver::Wcsph, 14), (Solver::Wcsph, 18), (Solver::Dfsph, 14), (Solver::Dfsph, 18)]
+    {
+        let config = tank_scene(solver, SIDE, cells, RADIUS);
         let spacing = config.settings.spacing;
         let mut run = Run::new(&config);
         let count = run.snapshot().ids.len();
@@ -44,14 +46,17 @@ fn a_ball_is_carried_by_the_water_that_it_displaces() {
         let view = run.snapshot();
         let levels = levels(&view, spacing);
         let lowest = view.positions.iter().map(|p| f64::from(p[1])).fold(f64::INFINITY, f64::min);
-        assert!((force.y - 1.0).abs() < 0.03, "{cells} cells: {force} of Archimedes' force");
-        assert!(force.x.hypot(force.z) < 0.01, "{cells} cells: {force} to the side");
-        assert_eq!(view.ids.len(), count, "{cells} cells: the tank leaks");
-        assert!(lowest > 0.0, "{cells} cells: a particle lies {lowest} m below the floor");
+        assert!((force.y - 1.0).abs() < 0.03, "{solver:?}, {cells} cells: {force} of Archimedes' force");
+        assert!(force.x.hypot(force.z) < 0.01, "{solver:?}, {cells} cells: {force} to the side");
+        assert_eq!(view.ids.len(), count, "{solver:?}, {cells} cells: the tank leaks");
+        assert!(lowest > 0.0, "{solver:?}, {cells} cells: a particle lies {lowest} m below the floor");
         let (low, high) = levels.iter().fold((f64::MAX, f64::MIN), |(l, h), &y| (l.min(y), h.max(y)));
-        assert!(high - low < 0.25 * spacing, "{cells} cells: not level: {levels:?}");
+        assert!(high - low < 0.25 * spacing, "{solver:?}, {cells} cells: not level: {levels:?}");
         // The topmost particles stand half a spacing below the surface.
-        assert!((low - (SIDE - 0.5 * spacing)).abs() < 0.5 * spacing, "{cells} cells: {levels:?}");
+        assert!(
+            (low - (SIDE - 0.5 * spacing)).abs() < 0.5 * spacing,
+            "{solver:?}, {cells} cells: {levels:?}"
+        );
     }
 }
 

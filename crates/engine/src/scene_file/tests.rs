@@ -42,7 +42,10 @@ fn a_wrong_file_is_told_by_file_line_field_value_and_range() {
             "[fluid]\nspacing = 0.01\nviscosity = -2\n",
             "my.toml:3: fluid.viscosity = -2: must be a number from 0 to 10000 Pa·s",
         ),
-        ("[fluid]\nsolver = \"sph\"\n", "my.toml:2: fluid.solver = \"sph\": must be one of wcsph, muller"),
+        (
+            "[fluid]\nsolver = \"sph\"\n",
+            "my.toml:2: fluid.solver = \"sph\": must be one of wcsph, dfsph, muller",
+        ),
         (
             "\n[fluid]\nviscosty = 1\n",
             "my.toml:3: no setting \"fluid.viscosty\"; did you mean fluid.viscosity?",

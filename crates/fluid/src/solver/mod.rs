@@ -1,9 +1,10 @@
-//! The two solvers: what particles do to each other in one sub-step.
+//! The solvers: what particles do to each other in one sub-step.
 //!
 //! Every pass goes over fixed chunks of blocks in parallel, the particles of a block in the lanes of a vector; a particle
 //! gathers from its neighbours and writes only its own row, and loads on bodies are summed chunk by chunk in order, so
 //! that results do not depend on the number of threads.
 
+pub(crate) mod dfsph;
 pub(crate) mod muller;
 pub(crate) mod tension;
 pub(crate) mod viscosity;
@@ -19,11 +20,11 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 /// Kinematic viscosity that the solver of `config` adds to the stated one in a flow of this wave number (rad/m),
-/// m²/s.
+/// m²/s; that of `dfsph` grows with the speed, and is meant at the reference speed.
 pub(crate) fn added_viscosity(config: &FluidConfig, wave_number: f64) -> f64 {
     match config.settings.solver {
         Solver::Muller => muller::artificial_viscosity(config),
-        Solver::Wcsph => wcsph::noise_filter(config) * wave_number * wave_number,
+        Solver::Wcsph | Solver::Dfsph => wcsph::noise_filter(config) * wave_number * wave_number,
     }
 }
 

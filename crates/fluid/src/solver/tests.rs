@@ -14,7 +14,7 @@ use crate::wall::WallTable;
 use crate::{Aabb, FluidConfig, FluidSettings, Kernel, Solver, World, kernel};
 use glam::{DVec3, Vec3};
 
-fn config(solver: Solver) -> FluidConfig {
+pub(super) fn config(solver: Solver) -> FluidConfig {
     let world = World {
         bounds: Aabb { min: DVec3::splat(-1.0), max: DVec3::splat(1.0) },
         pools: vec![Aabb { min: DVec3::ZERO, max: DVec3::splat(0.1) }],
@@ -45,7 +45,7 @@ fn cloud(spacing: f32) -> Particles {
     particles
 }
 
-fn twins(p: &Particles, density: impl Fn(usize) -> f64) -> Vec<Twin> {
+pub(super) fn twins(p: &Particles, density: impl Fn(usize) -> f64) -> Vec<Twin> {
     let twin = |i: usize| Twin {
         x: p.position(i).as_dvec3(),
         v: p.velocity(i).as_dvec3(),
@@ -56,7 +56,10 @@ fn twins(p: &Particles, density: impl Fn(usize) -> f64) -> Vec<Twin> {
 }
 
 /// Sorted cloud and a pass over it on each kind of processor at hand.
-fn each_pass(config: &FluidConfig, check: impl Fn(&mut Particles, &dyn Fn(&Particles, &dyn Fn(Pass<'_>)))) {
+pub(super) fn each_pass(
+    config: &FluidConfig,
+    check: impl Fn(&mut Particles, &dyn Fn(&Particles, &dyn Fn(Pass<'_>))),
+) {
     let support = config.settings.support_length();
     for arch in [pulp::Arch::Scalar, arch()] {
         let (mut particles, mut grid) = (cloud(config.settings.spacing as f32), Grid::default());
@@ -81,7 +84,7 @@ fn assert_close(got: DVec3, expected: DVec3, scale: f64, what: &str) {
     assert!((got - expected).length() < 2e-4 * scale, "{what}: {got} instead of {expected} (scale {scale})");
 }
 
-fn vector(row: &[f32; 4]) -> DVec3 {
+pub(super) fn vector(row: &[f32; 4]) -> DVec3 {
     Vec3::new(row[0], row[1], row[2]).as_dvec3()
 }
 
@@ -303,7 +306,7 @@ fn lists_hold_every_neighbour() {
 }
 
 /// Each row within 2e-4 of the largest expected one.
-fn assert_rows(got: impl Iterator<Item = DVec3>, expected: impl Iterator<Item = DVec3> + Clone) {
+pub(super) fn assert_rows(got: impl Iterator<Item = DVec3>, expected: impl Iterator<Item = DVec3> + Clone) {
     let scale = expected.clone().map(|e| e.length()).fold(0.0, f64::max);
     for (got, expected) in got.zip(expected) {
         assert_close(got, expected, scale, "row");

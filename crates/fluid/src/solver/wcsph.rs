@@ -58,7 +58,7 @@ pub(crate) fn artificial_viscosity(config: &FluidConfig) -> f64 {
 /// answers noise with about −K/H² of it.
 pub(crate) fn noise_filter(config: &FluidConfig) -> f64 {
     artificial_viscosity(config) * config.settings.support_length().powi(2)
-        / config.settings.kernel.viscous_factor()
+        / config.settings.kernel_in_use().viscous_factor()
 }
 
 /// Share of the filter that acts on quiet flow. From there it grows with what it filters, to the whole where H² |L| nears
@@ -76,7 +76,7 @@ const MOST_DAMPING: f32 = 2.8;
 /// over a drop of a few millimetres is as large; a stronger one clumps particles.
 const TENSION: f64 = 2e-4;
 /// Least share of a moment that is taken to lie in the fluid, when the whole is found from it.
-const LEAST_FLUID: f32 = 0.4;
+pub(super) const LEAST_FLUID: f32 = 0.4;
 /// Distance below which the slope of the velocity at a wall is no longer looked for, in spacings.
 pub(crate) const LEAST_DISTANCE: f32 = 0.25;
 /// Longest shift in a sub-step, in spacings.
@@ -84,6 +84,11 @@ const LONGEST_SHIFT: f32 = 0.05;
 /// From this share of a full neighbourhood to this, the noise filter sets in: at a free surface the sum over one side
 /// takes any shear for noise.
 const FILTERED: [f32; 2] = [0.85, 0.95];
+
+/// How far within the fluid a particle lies whose neighbourhood is filled to `fill`, 0..1.
+pub(super) fn within(fill: f32) -> f32 {
+    ((fill - FILTERED[0]) / (FILTERED[1] - FILTERED[0])).clamp(0.0, 1.0)
+}
 
 /// Below this share a particle is spray: a drop or a sheet one particle thick.
 const SPRAY: f32 = 0.75;
@@ -94,22 +99,22 @@ const SPRAY_TIME: f32 = 0.003;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wcsph {
     kernel: Kernel,
-    support: f32,
+    pub(super) support: f32,
     inverse_support: f32,
     /// C V: scale of f.
-    scale: f32,
+    pub(super) scale: f32,
     /// Scale of the viscous sum, in supports.
-    viscous_scale: f32,
+    pub(super) viscous_scale: f32,
     /// Scale of the summed kernel.
-    sum_scale: f32,
-    mass: f32,
-    sound: f32,
+    pub(super) sum_scale: f32,
+    pub(super) mass: f32,
+    pub(super) sound: f32,
     diffusion: f32,
     damper: f32,
     /// Stated kinematic viscosity, m²/s; 0 where it is implicit.
-    viscosity: f32,
+    pub(super) viscosity: f32,
     /// κ of the noise filter, m⁴/s.
-    filter: f32,
+    pub(super) filter: f32,
     spacing: f32,
     /// H²/(α c): 1 over the Laplacian that wakes the whole filter, m s.
     rough: f32,
@@ -123,21 +128,22 @@ pub(crate) struct Wcsph {
     /// Lowest pressure over rest density, m²/s².
     floor: f32,
     gravity: Vec3,
-    two_way: bool,
+    pub(super) two_way: bool,
 }
 
 impl Wcsph {
     pub fn new(config: &FluidConfig) -> Self {
         let s = &config.settings;
         let (dx, h, c) = (s.spacing, s.support_length(), config.sound_speed());
-        let volume = dx.powi(3) / s.kernel.lattice_moment(dx, h);
+        let kernel = s.kernel_in_use();
+        let volume = dx.powi(3) / kernel.lattice_moment(dx, h);
         Self {
-            kernel: s.kernel,
+            kernel,
             support: h as f32,
             inverse_support: (1.0 / h) as f32,
-            scale: (s.kernel.gradient_scale(h) * volume) as f32,
-            viscous_scale: (s.kernel.viscous_factor() * s.kernel.gradient_scale(h) * volume) as f32,
-            sum_scale: (s.kernel.value(0.0, h) * dx.powi(3) / s.kernel.lattice_sum(dx, h)) as f32,
+            scale: (kernel.gradient_scale(h) * volume) as f32,
+            viscous_scale: (kernel.viscous_factor() * kernel.gradient_scale(h) * volume) as f32,
+            sum_scale: (kernel.value(0.0, h) * dx.powi(3) / kernel.lattice_sum(dx, h)) as f32,
             mass: s.particle_mass() as f32,
             sound: c as f32,
             diffusion: (s.density_diffusion * 0.5 * h * c) as f32,
@@ -185,7 +191,7 @@ impl Wcsph {
         let c2 = self.sound * self.sound;
         for (i, &[fill, ..]) in rows.iter().enumerate() {
             particles.fill[i] = fill;
-            particles.inner[i] = ((fill - FILTERED[0]) / (FILTERED[1] - FILTERED[0])).clamp(0.0, 1.0);
+            particles.inner[i] = within(fill);
             let error = (fill - 1.0 - particles.p[i] / c2).clamp(-PACKING_CLIP, PACKING_CLIP);
             particles.slow[i] = match fill {
                 fill if fill < SPRAY => -particles.p[i] / SPRAY_TIME,
@@ -222,7 +228,7 @@ impl Wcsph {
     }
 
     /// Place of a particle in supports.
-    fn scaled(&self, p: &Particles, i: usize) -> [f32; 3] {
+    pub(super) fn scaled(&self, p: &Particles, i: usize) -> [f32; 3] {
         (p.position(i) * self.inverse_support).into()
     }
 
@@ -247,10 +253,16 @@ impl Wcsph {
         let push = -2.0 * p * terms.gradient * n - bearing * moment;
         // A wall pushes and never pulls.
         let push = push - push.dot(n).min(0.0) * n;
+        [push, self.friction(meeting, terms, velocity)]
+    }
+
+    /// Acceleration by the friction of a wall on a particle of `velocity` (m/s), m/s².
+    pub(super) fn friction(&self, meeting: &Meeting, terms: &WallTerms, velocity: Vec3) -> Vec3 {
+        let n = meeting.contact.normal;
         let slip = meeting.contact.velocity - velocity;
         let slip = slip - slip.dot(n) * n;
         let rate = slip / meeting.contact.distance.max(self.least_distance);
-        [push, self.viscosity * terms.friction * rate]
+        self.viscosity * terms.friction * rate
     }
 }
 

@@ -8,8 +8,8 @@ use hapflow_fluid::{
 };
 use std::f64::consts::PI;
 
-/// Both solvers.
-pub const SOLVERS: [Solver; 2] = [Solver::Wcsph, Solver::Muller];
+/// All solvers.
+pub const SOLVERS: [Solver; 3] = [Solver::Wcsph, Solver::Muller, Solver::Dfsph];
 
 /// A box between two corners.
 pub fn aabb(min: [f64; 3], max: [f64; 3]) -> Aabb {
