@@ -327,7 +327,7 @@ const RUN_AND_FLUID: &[Setting<Scene>] = &[
         0.0..=1e7,
         LIVE,
         fluid.background_pressure,
-        "Pressure of wcsph and dfsph that all is under: for a fluid without free surface, which may then pull."
+        "Pressure of wcsph that all is under: for a fluid without free surface, which may then pull."
     ),
     number!(
         "fluid.surface_tension",

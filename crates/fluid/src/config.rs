@@ -67,7 +67,7 @@ pub struct FluidSettings {
     pub shifting: f64,
     /// Acoustic damper ζ of `wcsph`, in units of c dx.
     pub acoustic_damping: f64,
-    /// Pressure of `wcsph` and `dfsph` that all is under, Pa, for a fluid without free surface: what is below it can pull.
+    /// Pressure of `wcsph` that all is under, Pa, for a fluid without free surface: what is below it can pull.
     pub background_pressure: f64,
     /// Share of the compression by gravity and flow that the pressure of `dfsph` may leave unanswered.
     pub tolerance: f64,
@@ -369,6 +369,11 @@ impl FluidConfig {
         range("fluid.shifting", s.shifting, 0.0, 0.5)?;
         range("fluid.acoustic_damping", s.acoustic_damping, 0.0, 1.0)?;
         range("fluid.background_pressure", s.background_pressure, 0.0, 1e7)?;
+        if s.solver == Solver::Dfsph && s.background_pressure > 0.0 {
+            let what = "dfsph needs a free surface: fluid.background_pressure must be 0, and is";
+            let what = format!("{what} {} Pa", s.background_pressure);
+            return Err(FluidError::Unsupported { backend: "cpu", what });
+        }
         range("fluid.tolerance", s.tolerance, 1e-4, 0.5)?;
         range("fluid.max_iterations", s.max_iterations as f64, 1.0, 1000.0)?;
         range("fluid.damping", s.damping, 0.0, 1e3)?;

@@ -40,6 +40,14 @@ fn the_force_does_not_hang_on_the_iterations() {
     }
 }
 
+#[test]
+fn a_fluid_without_free_surface_is_refused() {
+    let mut config = tank_scene(Solver::Dfsph, 0.2, 10, RADIUS);
+    config.settings.background_pressure = 50.0;
+    let text = config.check().unwrap_err().to_string();
+    assert!(text.contains("fluid.background_pressure must be 0, and is 50 Pa"), "{text}");
+}
+
 /// `wcsph` steps by the speed of sound, whatever moves.
 #[test]
 fn water_at_rest_needs_few_sub_steps() {

@@ -50,8 +50,6 @@ pub(crate) struct Dfsph {
     /// Constants of the sums that it shares with `wcsph`.
     sums: Wcsph,
     gravity: Vec3,
-    /// Pressure over rest density that all is under, m²/s².
-    background: f32,
     /// Share of the compression that the pressure may leave unanswered.
     tolerance: f32,
     max_iterations: usize,
@@ -111,7 +109,6 @@ impl Dfsph {
         Self {
             sums: Wcsph::new(config),
             gravity: s.gravity.as_vec3(),
-            background: (s.background_pressure / s.rest_density) as f32,
             tolerance: s.tolerance as f32,
             max_iterations: s.max_iterations,
             stiffest: stiffest_wave(dx, h) as f32,
@@ -150,7 +147,7 @@ impl Dfsph {
         sweep(around.pass(particles), Look(self), crowds, scratch, &mut []);
         for (i, crowd) in crowds.iter().enumerate() {
             let free = particles.held[i] <= 0.0;
-            particles.aux[i] = if free { (particles.p[i] + self.background).max(0.0) } else { 0.0 };
+            particles.aux[i] = if free { particles.p[i] } else { 0.0 };
             let l = crowd.laplacian * wcsph::within(crowd.fill);
             (particles.lx[i], particles.ly[i], particles.lz[i]) = l.into();
         }

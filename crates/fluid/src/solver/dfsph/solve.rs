@@ -88,7 +88,7 @@ impl Solve<'_> {
     pub fn take_pressures(&mut self) {
         for (i, (site, opening)) in self.sites.iter().zip(&*self.openings).enumerate() {
             let ahead = site.relief / self.around.dt * (-opening - site.closing);
-            self.particles.p[i] = (self.particles.aux[i] + ahead).max(0.0) - self.solver.background;
+            self.particles.p[i] = (self.particles.aux[i] + ahead).max(0.0);
         }
     }
 
