@@ -44,8 +44,9 @@ fn check(solver: Solver) {
             );
             assert!(balance.y < -0.05, "the jet must push: {case}");
             if offset > 0.0 {
-                // Measured: 0.04 at least, and 0.06 at finer spacings.
-                assert!(balance.x < -0.03, "an off-centre jet must push aside: {case}");
+                // Measured: wcsph 0.054 at least, dfsph 0.040; more at finer spacings.
+                let least = if solver == Solver::Dfsph { 0.03 } else { 0.05 };
+                assert!(balance.x < -least, "an off-centre jet must push aside: {case}");
             }
             // Measured: 0.3 % at most.
             assert!((load - balance).abs().max_element() < 0.02 * balance.length(), "{case}");
