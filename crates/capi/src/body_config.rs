@@ -6,10 +6,10 @@ use crate::config::check_head;
 use crate::contract::as_in_header;
 use crate::fence::fence;
 use crate::generated as c;
-use crate::part::{Lengths, Part, form, name, null, unreserved};
+use crate::part::{Part, form_of, name, null, unreserved};
 use crate::session::finite;
 use glam::DVec3;
-use hapflow_engine::{Form, FreeBody};
+use hapflow_engine::FreeBody;
 use std::ffi::c_void;
 
 /// `hapflow_body_config`.
@@ -88,23 +88,10 @@ impl Part for BodyConfig {
         finite("position", &self.position)?;
         Ok(FreeBody {
             name: name(self.name)?,
-            form: self.form()?,
+            form: form_of!(self)?,
             density: self.density,
             position: DVec3::from(self.position),
         })
-    }
-}
-
-impl BodyConfig {
-    fn form(&self) -> Result<Form, Failure> {
-        let lengths = Lengths {
-            radius: self.radius,
-            thickness: self.thickness,
-            length: self.length,
-            extent: self.extent,
-            scale: self.scale,
-        };
-        form(self.shape, &lengths, self.file)
     }
 }
 

@@ -6,10 +6,10 @@ use crate::config::check_head;
 use crate::contract::as_in_header;
 use crate::fence::fence;
 use crate::generated as c;
-use crate::part::{Lengths, Part, form, name, null, unreserved};
+use crate::part::{Part, form_of, name, null, unreserved};
 use crate::session::finite;
 use glam::DVec3;
-use hapflow_engine::{Form, Obstacle};
+use hapflow_engine::Obstacle;
 use std::ffi::c_void;
 
 /// `hapflow_obstacle_config`.
@@ -82,20 +82,7 @@ impl Part for ObstacleConfig {
         unreserved(self.reserved)?;
         null(self.mesh)?;
         finite("position", &self.position)?;
-        Ok(Obstacle { name: name(self.name)?, form: self.form()?, position: DVec3::from(self.position) })
-    }
-}
-
-impl ObstacleConfig {
-    fn form(&self) -> Result<Form, Failure> {
-        let lengths = Lengths {
-            radius: self.radius,
-            thickness: self.thickness,
-            length: self.length,
-            extent: self.extent,
-            scale: self.scale,
-        };
-        form(self.shape, &lengths, self.file)
+        Ok(Obstacle { name: name(self.name)?, form: form_of!(self)?, position: DVec3::from(self.position) })
     }
 }
 

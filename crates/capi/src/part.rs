@@ -25,19 +25,20 @@ pub fn name(text: Text) -> Result<String, Code> {
     if text.is_null() { Ok(String::new()) } else { Ok(text.read()?.into()) }
 }
 
-/// The lengths of a shape.
-pub struct Lengths {
-    pub radius: f64,
-    pub thickness: f64,
-    pub length: f64,
-    pub extent: [f64; 3],
-    pub scale: f64,
+/// The shape that a config gives, by the fields that all with a shape have.
+macro_rules! form_of {
+    ($config:expr) => {{
+        let config = $config;
+        let lengths = [config.radius, config.thickness, config.length, config.scale];
+        $crate::part::form(config.shape, lengths, config.extent, config.file)
+    }};
 }
+pub(crate) use form_of;
 
-/// The shape of this number; its mesh is read here.
-pub fn form(shape: u32, lengths: &Lengths, file: Text) -> Result<Form, Failure> {
-    let &Lengths { radius, thickness, length, extent, scale } = lengths;
-    finite("radius, thickness, length, scale", &[radius, thickness, length, scale])?;
+/// The shape of this number, of a radius, a thickness, a length, a scale and an extent; its mesh is read here.
+pub fn form(shape: u32, lengths: [f64; 4], extent: [f64; 3], file: Text) -> Result<Form, Failure> {
+    let [radius, thickness, length, scale] = lengths;
+    finite("radius, thickness, length, scale", &lengths)?;
     finite("extent", &extent)?;
     let mut form = Form::ball(radius);
     (form.kind, form.thickness, form.length, form.size) =

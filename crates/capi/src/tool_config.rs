@@ -6,10 +6,10 @@ use crate::config::check_head;
 use crate::contract::as_in_header;
 use crate::fence::fence;
 use crate::generated as c;
-use crate::part::{Lengths, Part, form, name, null, unreserved};
+use crate::part::{Part, form_of, name, null, unreserved};
 use crate::session::finite;
 use glam::DVec3;
-use hapflow_engine::{Form, ToolSettings};
+use hapflow_engine::ToolSettings;
 use hapflow_haptics::SolidFeel;
 use std::ffi::c_void;
 
@@ -103,7 +103,7 @@ impl Part for ToolConfig {
         finite("solid_stiffness, solid_damping", &[self.solid_stiffness, self.solid_damping])?;
         Ok(ToolSettings {
             name: name(self.name)?,
-            form: self.form()?,
+            form: form_of!(self)?,
             mass: self.mass,
             collision_response: self.collision_response,
             position: DVec3::from(self.position),
@@ -113,19 +113,6 @@ impl Part for ToolConfig {
                 damping_n_s_per_m: self.solid_damping,
             },
         })
-    }
-}
-
-impl ToolConfig {
-    fn form(&self) -> Result<Form, Failure> {
-        let lengths = Lengths {
-            radius: self.radius,
-            thickness: self.thickness,
-            length: self.length,
-            extent: self.extent,
-            scale: self.scale,
-        };
-        form(self.shape, &lengths, self.file)
     }
 }
 
