@@ -66,3 +66,10 @@ pub enum ValidationError {
         cause: FluidError,
     },
 }
+
+impl ValidationError {
+    /// True where the fluid is not made for the case: a solver that needs a free surface, say.
+    pub fn is_unsupported(&self) -> bool {
+        matches!(self, Self::Fluid { cause: FluidError::Unsupported { .. }, .. })
+    }
+}

@@ -250,7 +250,10 @@ impl Wcsph {
         let across = field.dot(n) * n;
         let along = (slope - slope.dot(n) * n) / (1.0 - terms.tangent_moment).max(LEAST_FLUID);
         let moment = terms.normal_moment * across + terms.tangent_moment * along;
-        let push = -2.0 * p * terms.gradient * n - bearing * moment;
+        // Between the particle and the wall the slope bends from the fluid's own to the wall's.
+        let own = slope.dot(n) / (1.0 - terms.normal_moment).max(LEAST_FLUID);
+        let bend = 0.5 * meeting.contact.distance.max(0.0) * (field.dot(n) - own);
+        let push = -(2.0 * p + bearing * bend) * terms.gradient * n - bearing * moment;
         // A wall pushes and never pulls.
         let push = push - push.dot(n).min(0.0) * n;
         [push, self.friction(meeting, terms, velocity)]

@@ -31,8 +31,10 @@ pub(super) const CASE: Case = Case {
 };
 
 fn run(setup: &Setup<'_>) -> Result<Report, ValidationError> {
-    let (depth, density) = (setup.number("depth"), setup.number("density"));
-    let width = 0.5 * depth;
+    // Whole layers of particles: a broken one would make the water shallower or deeper than it is said to be.
+    let whole = |length: f64| (length / setup.dx).round().max(1.0) * setup.dx;
+    let (depth, density) = (whole(setup.number("depth")), setup.number("density"));
+    let width = whole(0.5 * depth);
     // Without side walls: one would carry the water next to it, as far as the kernel reaches.
     let mut world = worlds::empty(worlds::upright(DVec3::new(width, 2.0 * depth, width)));
     world.periodic = [true, false, true];
