@@ -27,6 +27,7 @@ Examples:
   hapflow run my-scene.toml --realtime        your own scene, in real time
   hapflow scenes --settings                   every setting with its unit, range and default
   hapflow validate jet-plate --set speed=2    the fluid's forces against their known answers
+  hapflow stress --trials 2000                shake random scenes, and say what does not hold
   hapflow doctor                              check this machine, and say what to do";
 
 /// The commands.
@@ -40,6 +41,8 @@ pub enum Command {
     Devices,
     /// Run the fluid's cases with known answers, and say how far off it is and what it costs.
     Validate(ValidateArgs),
+    /// Shake random scenes by all means, and say what does not hold: all finite, nobody lost, speed, energy and force bounded.
+    Stress(StressArgs),
     /// Check this machine and say what to do: cores, SIMD, real-time rights, timer, USB, output.
     Doctor(DoctorArgs),
 }
@@ -133,6 +136,23 @@ pub struct ValidateArgs {
     /// Folder for a picture of each case's convergence, made if absent.
     #[arg(long, value_name = "DIR")]
     pub plot: Option<PathBuf>,
+}
+
+/// Arguments of `stress`.
+#[derive(Debug, Args)]
+pub struct StressArgs {
+    /// How many trials.
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
+    pub trials: u64,
+    /// Seed of the first trial; the next has the next.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub seed: u64,
+    /// Instead, find the longest steps at which a tank stays calm, against stiffness and viscosity, and draw them.
+    #[arg(long, value_name = "FILE.png", conflicts_with = "json")]
+    pub map: Option<PathBuf>,
+    /// Print one line of JSON for each trial (trial, seed, pass, reason, repeat) instead of those that fail.
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Arguments of `doctor`.

@@ -1,6 +1,6 @@
-//! The program `hapflow`: runs scenes, lists scenes and devices, checks the machine, validates the fluid.
+//! The program `hapflow`: runs scenes, lists scenes and devices, checks the machine, validates the fluid and shakes it.
 //!
-//! Exit codes: 0 done, 1 a run that failed, a goal that is missed or a machine that lacks something, 2 words, values or folders that
+//! Exit codes: 0 done, 1 a run that failed, a goal that is missed, a trial that does not hold or a machine that lacks something, 2 words, values or folders that
 //! cannot be used.
 #![forbid(unsafe_code)]
 
@@ -11,6 +11,7 @@ mod list;
 mod meter;
 mod outputs;
 mod run;
+mod stress;
 mod summary;
 mod validate;
 mod viscosity;
@@ -39,6 +40,8 @@ fn dispatch(cli: cli::Cli) -> Result<ExitCode, run::Failure> {
         cli::Command::Devices => list::devices(),
         cli::Command::Validate(args) if validate::validate(&args)? => {}
         cli::Command::Validate(_) => return Ok(ExitCode::FAILURE),
+        cli::Command::Stress(args) if stress::stress(&args)? => {}
+        cli::Command::Stress(_) => return Ok(ExitCode::FAILURE),
         cli::Command::Doctor(args) if doctor::doctor(&args) => {}
         cli::Command::Doctor(_) => return Ok(ExitCode::FAILURE),
     }

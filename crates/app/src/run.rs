@@ -27,6 +27,9 @@ pub enum Failure {
     /// A case that cannot be run.
     #[error(transparent)]
     Validation(#[from] ValidationError),
+    /// A fluid that cannot be.
+    #[error(transparent)]
+    Fluid(#[from] hapflow_fluid::FluidError),
     /// A folder that cannot be written.
     #[error("--out {0}: {1}; choose another folder with --out")]
     Folder(String, std::io::Error),

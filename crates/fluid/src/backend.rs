@@ -48,7 +48,7 @@ pub enum FluidError {
     },
     /// More particles than allowed.
     #[error(
-        "the pools hold {needed} particles and fluid.max_particles allows {allowed}; raise it or fluid.spacing"
+        "the fluid would be {needed} particles and fluid.max_particles allows {allowed}; raise it or fluid.spacing"
     )]
     TooManyParticles {
         /// Particles wanted.

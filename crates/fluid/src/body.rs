@@ -173,10 +173,18 @@ impl Body {
             }
             BodyDrive::Free => {
                 self.state.position += self.state.velocity * dt;
-                let turn = DQuat::from_scaled_axis(self.state.angular_velocity * dt);
-                self.state.orientation = (turn * self.state.orientation).normalize();
+                self.turn(dt);
             }
         }
+    }
+
+    /// Turns on for `dt`. The angular momentum stays as it is, so that no spin, however fast, grows by itself.
+    fn turn(&mut self, dt: f64) {
+        let (s, inertia) = (&mut self.state, self.config.shape.inertia(self.config.mass));
+        let momentum = s.orientation * (inertia * (s.orientation.inverse() * s.angular_velocity));
+        let turn = DQuat::from_scaled_axis(s.angular_velocity * dt);
+        s.orientation = (turn * s.orientation).normalize();
+        s.angular_velocity = s.orientation * (inertia.inverse() * (s.orientation.inverse() * momentum));
     }
 
     fn follow(&mut self, path: &[BodySample], share: f64, dt: f64) {
@@ -223,13 +231,21 @@ impl Body {
         let acceleration = pull / (mass + carried);
         let s = &mut self.state;
         let (inertia, inverse) = (shape.inertia(mass), s.orientation.inverse());
-        let (spin, torque) = (inverse * s.angular_velocity, inverse * load.torque);
-        // Euler's equations, in the body's frame.
-        let turning = s.orientation * (inertia.inverse() * (torque - spin.cross(inertia * spin)));
+        let turning = s.orientation * (inertia.inverse() * (inverse * load.torque));
         if acceleration.is_finite() && turning.is_finite() {
             self.acceleration = acceleration;
             s.velocity += acceleration * dt;
             s.angular_velocity += turning * dt;
+        }
+    }
+
+    /// Holds a free body below the `fastest` (m/s) that anything here may be, turning too. Particles that together are far
+    /// heavier than it would else throw it about, each as if it were alone.
+    pub fn rein(&mut self, fastest: f64) {
+        if self.drive == BodyDrive::Free {
+            let spin = fastest / self.config.shape.bounding_radius();
+            self.state.velocity = self.state.velocity.clamp_length_max(fastest);
+            self.state.angular_velocity = self.state.angular_velocity.clamp_length_max(spin);
         }
     }
 
@@ -401,6 +417,22 @@ mod tests {
             let s = sample_path(&samples, share).unwrap();
             assert!((s.position.x - x).abs() < 1e-12, "{share}: {}", s.position.x);
         }
+    }
+
+    /// A box that spins about any axis keeps its momentum and so its speed, however long the step.
+    #[test]
+    fn no_spin_grows_by_itself() {
+        let shape = Shape::Box { size: DVec3::new(0.01, 0.02, 0.04) };
+        let mut body = Body::new(BodyConfig { shape, ..BodyConfig::default() });
+        body.state.angular_velocity = DVec3::new(300.0, 2000.0, -500.0);
+        let inertia = body.config.shape.inertia(body.config.mass);
+        let momentum = |b: &Body| {
+            let o = b.state.orientation;
+            o * (inertia * (o.inverse() * b.state.angular_velocity))
+        };
+        let before = momentum(&body);
+        (0..1000).for_each(|_| body.turn(1e-3));
+        assert!((momentum(&body) / before - 1.0).abs().max_element() < 1e-9);
     }
 
     /// In nothing, a free body falls; a fluid that answers its acceleration with the displaced mass slows it as the

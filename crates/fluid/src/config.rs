@@ -331,6 +331,11 @@ impl FluidConfig {
         }
     }
 
+    /// Highest speed that anything in the fluid may have, m/s: the last guard.
+    pub fn highest_speed(&self) -> f64 {
+        self.sound_speed().max(5.0 * self.reference_speed())
+    }
+
     /// The most that the solver adds to the stated viscosity in a flow of this wavelength (m), Pa·s. `wcsph` adds the less
     /// the longer the waves, and to quiet flow a tenth of this; in mode none nothing is viscous.
     /// `tests/effective_viscosity.rs` measures it.

@@ -25,6 +25,10 @@ use crate::wall::WallTable;
 use crate::{BodyMotion, FluidConfig, InteractionMode, Solver, limits, pools};
 use glam::{DVec3, Vec3};
 
+/// Farthest that a particle may go in a sub-step, in spacings: from a quarter behind a wall, where the last stop is, it must
+/// not come past its middle, one behind.
+const LONGEST_WAY: f64 = 0.7;
+
 /// A fluid on the CPU.
 pub struct CpuBackend {
     config: FluidConfig,
@@ -76,6 +80,14 @@ impl CpuBackend {
             p.set_velocity(i, if velocity.is_finite() { velocity } else { Vec3::ZERO });
         }
     }
+
+    /// [`submit`](FluidBackend::submit) in `steps` sub-steps, whatever stability asks for: to measure where it ends.
+    pub fn submit_in(&mut self, frame: &FrameInput<'_>, steps: usize) {
+        let Self { config, pool, arch, fluid, output, .. } = self;
+        let arch = *arch;
+        pool.install(|| fluid.frame(config, arch, (frame, steps), output));
+        self.ready = true;
+    }
 }
 
 impl FluidBackend for CpuBackend {
@@ -86,16 +98,15 @@ impl FluidBackend for CpuBackend {
     fn configure(&mut self, config: &FluidConfig) -> Result<(), FluidError> {
         config.check()?;
         let Self { pool, fluid, config: old, .. } = self;
+        pools::check_spacing(&fluid.particles, old.settings.spacing, config)?;
         pool.install(|| fluid.adapt(old, config));
         self.config = config.clone();
         Ok(())
     }
 
     fn submit(&mut self, frame: &FrameInput<'_>) {
-        let Self { config, pool, arch, fluid, output, .. } = self;
-        let arch = *arch;
-        pool.install(|| fluid.frame(config, arch, frame, output));
-        self.ready = true;
+        let steps = self.fluid.substeps(&self.config, frame);
+        self.submit_in(frame, steps);
     }
 
     fn poll(&mut self) -> Option<&FrameOutput> {
@@ -250,18 +261,22 @@ impl Fluid {
         restack(&mut self.particles, config, &solids);
     }
 
-    fn frame(
-        &mut self,
-        config: &FluidConfig,
-        arch: pulp::Arch,
-        frame: &FrameInput<'_>,
-        output: &mut FrameOutput,
-    ) {
+    /// Sub-steps that `frame` needs.
+    fn substeps(&self, config: &FluidConfig, frame: &FrameInput<'_>) -> usize {
         let seen = f64::from(self.max_speed).max(self.tool_speed(frame));
         let speed = limits::expected_speed(config, seen, frame.duration);
         let needed = limits::substeps(config, frame.duration, speed);
         // A frame of no length changes nothing.
-        let steps = if frame.duration > 0.0 { needed.min(config.settings.max_substeps) } else { 0 };
+        if frame.duration > 0.0 { needed.min(config.settings.max_substeps) } else { 0 }
+    }
+
+    fn frame(
+        &mut self,
+        config: &FluidConfig,
+        arch: pulp::Arch,
+        (frame, steps): (&FrameInput<'_>, usize),
+        output: &mut FrameOutput,
+    ) {
         let step = self.plan(config, frame.duration / steps.max(1) as f64);
         self.begin(frame, output);
         for k in 0..steps {
@@ -316,7 +331,8 @@ impl Fluid {
             // The wall's pressure stops a particle; this only catches what has come through.
             ContactRule { distance: -0.25 * s.spacing as f32, restitution: 0.0 }
         };
-        let guard = config.sound_speed().max(5.0 * config.reference_speed());
+        // A speed that nobody reckoned with when the frame began must not carry a particle through a wall.
+        let guard = config.highest_speed().min(LONGEST_WAY * s.spacing / dt.max(1e-12));
         let cap = if s.max_displacement > 0.0 { s.max_displacement * config.frame_hz } else { f64::INFINITY };
         Step { dt, contact, cap: cap.min(guard) as f32, guard: guard as f32 }
     }
@@ -368,6 +384,7 @@ impl Fluid {
             &mut self.step_loads,
             (&medium, step.dt),
         );
+        self.bodies.iter_mut().for_each(|body| body.rein(config.highest_speed()));
         self.substep += 1;
     }
 
@@ -502,6 +519,7 @@ impl Fluid {
         let solids =
             Solids { walls: &self.walls, bodies: &self.now, plane: &self.plane, tables: &self.tables };
         let mass = s.particle_mass() as f32;
+        let longest = (LONGEST_WAY * s.spacing) as f32;
         let looked_up = self.meets_walls() && self.interacts(s.mode);
         let mut fastest = 0.0_f32;
         for i in 0..self.particles.len() {
@@ -523,16 +541,19 @@ impl Fluid {
                 velocity *= step.cap / speed;
                 self.degraded |= speed > step.guard;
             }
-            let mut state = (position + velocity * dt + shift, velocity);
+            let way = (velocity * dt + shift).clamp_length_max(longest);
+            let mut state = (position + way, velocity);
             // Who meets nothing within the support comes to no surface in one sub-step.
             if !(looked_up && self.meetings.of(i).is_empty()) {
                 let loads = &mut self.step_loads;
-                let touched = touch(&solids, &mut state, step.contact, mass, |m, impulse| {
+                let touched = touch(&solids, position, &mut state, step.contact, mass, |m, impulse| {
                     if let (true, Some(body)) = (s.two_way, m.body) {
                         loads[body].react(impulse / dt, Vec3::ZERO, m.contact.arm);
                     }
                 });
                 p.held[i] = if touched { 0.0 } else { p.held[i] };
+                // Between two that close in on it a particle would be squirted out at any speed.
+                state.1 = state.1.clamp_length_max(step.cap);
             }
             p.set_position(i, state.0);
             p.set_velocity(i, state.1);
@@ -576,8 +597,10 @@ impl Method {
 }
 
 /// Stops a particle at all surfaces, and tells of the impulse of each. Returns whether there was any.
+/// A particle that comes from `was` goes through no wall, however far a body that is suddenly there puts it.
 fn touch(
     solids: &Solids<'_>,
+    was: Vec3,
     state: &mut (Vec3, Vec3),
     rule: ContactRule,
     mass: f32,
@@ -592,6 +615,7 @@ fn touch(
     });
     if met_body {
         // A tool that overlaps a wall must not push water through it.
+        state.0 = solids.walls.hold(was, state.0);
         let walls = Solids { bodies: &[], ..*solids };
         walls.visit(state.0, rule.distance, |m| {
             stop(state, &m, rule, mass);

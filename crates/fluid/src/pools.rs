@@ -20,10 +20,7 @@ pub(crate) fn fill(config: &FluidConfig) -> Result<Vec<Newborn>, FluidError> {
     let spacing = config.settings.spacing;
     let wanted: f64 =
         config.world.pools.iter().map(|b| lattice(b, spacing).0.as_dvec3().element_product()).sum();
-    let (needed, allowed) = (wanted as usize, config.settings.max_particles);
-    if needed > allowed {
-        return Err(FluidError::TooManyParticles { needed, allowed });
-    }
+    check_count(wanted, config)?;
     let periodic = Periodic::new(&config.world);
     let bodies: Vec<_> =
         config.world.bodies.iter().cloned().map(|b| BodyNow::new(&Body::new(b), spacing, periodic)).collect();
@@ -48,6 +45,24 @@ pub(crate) fn fill(config: &FluidConfig) -> Result<Vec<Newborn>, FluidError> {
         }
     }
     Ok(out)
+}
+
+/// Refuses to fill `wanted` particles where there may be fewer.
+fn check_count(wanted: f64, config: &FluidConfig) -> Result<(), FluidError> {
+    let (needed, allowed) = (wanted as usize, config.settings.max_particles);
+    if needed > allowed { Err(FluidError::TooManyParticles { needed, allowed }) } else { Ok(()) }
+}
+
+/// Refuses a spacing at which the same fluid would be more particles than there may be.
+pub(crate) fn check_spacing(
+    old: &Particles,
+    old_spacing: f64,
+    config: &FluidConfig,
+) -> Result<(), FluidError> {
+    if config.settings.spacing >= old_spacing {
+        return Ok(());
+    }
+    check_count((old.len() as f64 * (old_spacing / config.settings.spacing).powi(3)).round(), config)
 }
 
 /// Points along each axis and their distances.
@@ -117,7 +132,7 @@ pub(crate) fn resample(
     // The fullest first; equal ones in order of height, so that a surface stays level.
     sites.sort_by(|a, b| b.1.filled.total_cmp(&a.1.filled).then(a.0.cmp(b.0)));
     let volume = old.len() as f64 * (old_spacing / config.settings.spacing).powi(3);
-    let count = (volume.round() as usize).min(config.settings.max_particles);
+    let count = volume.round() as usize;
     let born = |(key, d): &(&[i32; 3], &Deposit)| Newborn {
         position: place(key),
         velocity: d.velocity / d.filled,

@@ -5,6 +5,9 @@ use crate::wall::{WallTable, WallTerms};
 use crate::{Container, ContainerForm, FluidSettings, World};
 use glam::Vec3;
 
+/// Axes that count for the distance from an upright one.
+const LEVEL: Vec3 = Vec3::new(1.0, 0.0, 1.0);
+
 /// Ground and container, in f32.
 #[derive(Clone, Debug)]
 pub(crate) struct Walls {
@@ -78,12 +81,11 @@ impl Walls {
             }
             Some(Vessel::Cylinder { foot, top, radius }) if p.y < top => {
                 let above = p.y - foot.y;
-                let inside =
-                    self.visit_round(p - foot, Vec3::new(1.0, 0.0, 1.0), radius, margin, |d, n, hollow| {
-                        if hollow || above > 0.0 {
-                            meet(d, n, hollow);
-                        }
-                    });
+                let inside = self.visit_round(p - foot, LEVEL, radius, margin, |d, n, hollow| {
+                    if hollow || above > 0.0 {
+                        meet(d, n, hollow);
+                    }
+                });
                 if inside && above < margin {
                     meet(above, Vec3::Y, false);
                 }
@@ -118,6 +120,31 @@ impl Walls {
             meet(outside, outward, false);
         }
         false
+    }
+
+    /// Where one that was at `from` and is put to `to` by a body may go: through no wall of the container.
+    pub fn hold(&self, from: Vec3, to: Vec3) -> Vec3 {
+        let within = |arm: Vec3, axes: Vec3, radius: f32| (arm * axes).length() < radius + self.half;
+        let back = |centre: Vec3, axes: Vec3, radius: f32| {
+            let arm = to - centre;
+            arm * (Vec3::ONE - axes) + (arm * axes).clamp_length_max(radius) + centre
+        };
+        match self.vessel {
+            Some(Vessel::Box { min, max }) if from.y < max.y && to.y < max.y => {
+                let inside = from.cmpgt(min - self.half).all() && from.cmplt(max + self.half).all();
+                if inside { to.clamp(min, max) } else { to }
+            }
+            Some(Vessel::Cylinder { foot, top, radius }) if from.y < top && to.y < top => {
+                let inside = from.y > foot.y - self.half && within(from - foot, LEVEL, radius);
+                let held = back(foot, LEVEL, radius);
+                if inside { held.with_y(held.y.max(foot.y)) } else { to }
+            }
+            Some(Vessel::Bowl { centre, top, radius }) if from.y < top && to.y < top => {
+                let inside = within(from - centre, Vec3::ONE, radius);
+                if inside { back(centre, Vec3::ONE, radius) } else { to }
+            }
+            _ => to,
+        }
     }
 
     fn visit_box(&self, p: Vec3, min: Vec3, max: Vec3, margin: f32, meet: impl FnMut(f32, Vec3)) {
@@ -259,6 +286,24 @@ mod tests {
         close(&bowl([0.69, 0.33, 0.0]), &[(0.1, Vec3::new(-0.6, 0.8, 0.0))]);
         close(&bowl([0.0, -0.2, 0.0]), &[(0.1, Vec3::NEG_Y)]);
         close(&bowl([0.0, 0.3, 0.0]), &[]);
+    }
+
+    #[test]
+    fn a_body_puts_nobody_through_a_wall() {
+        let inner = Aabb { min: DVec3::new(-1.0, 0.0, -1.0), max: DVec3::new(1.0, 1.0, 1.0) };
+        let hold = |form, from: [f32; 3], to: [f32; 3]| {
+            let world = World { container: Some(Container { inner, form }), ..World::default() };
+            let settings = FluidSettings { spacing: 0.05, ..FluidSettings::default() };
+            Walls::new(&world, &settings).hold(from.into(), to.into()).to_array()
+        };
+        let (inside, outside) = ([0.5, 0.5, 0.0], [1.5, 0.5, 0.0]);
+        for form in [ContainerForm::Box, ContainerForm::Cylinder] {
+            assert_eq!(hold(form, inside, outside), [1.0, 0.5, 0.0]);
+            assert_eq!(hold(form, inside, [0.5, -0.3, 0.0]), [0.5, 0.0, 0.0]);
+            assert_eq!(hold(form, inside, [1.5, 1.1, 0.0]), [1.5, 1.1, 0.0], "over the rim");
+            assert_eq!(hold(form, [1.2, 0.5, 0.0], outside), outside, "from outside");
+        }
+        assert_eq!(hold(ContainerForm::Bowl, [0.0, 0.5, 0.0], [0.0, -0.3, 0.0]), [0.0, 0.0, 0.0]);
     }
 
     #[test]

@@ -11,7 +11,8 @@ use crate::{Kernel, Shape};
 use glam::{DVec3, IVec3, Mat3, Vec3};
 use rayon::prelude::*;
 
-/// Most nodes of a mesh: a larger one is taken for flat, as edges are a small share of it.
+/// Most nodes: where there would be more, the body is far larger than a support, and is taken for smooth, as edges are a
+/// small share of it.
 const MOST_NODES: usize = 300_000;
 
 /// One node: the integrals, with the whole gradient.
@@ -71,7 +72,7 @@ impl VolumeMap {
         let (fold, low, high) = room(shape, support)?;
         let step = support / f64::from(fold.nodes());
         let grid = NodeGrid::spanning(low, high, step as f32);
-        (!matches!(fold, Fold::Open) || grid.len() <= MOST_NODES).then(|| {
+        (grid.len() <= MOST_NODES).then(|| {
             let nodes = integrate(shape, (kernel, support), &grid, fold.nodes());
             Self { fold, grid, nodes }
         })
@@ -231,6 +232,16 @@ mod tests {
             Shape::Disc { radius: 0.02, thickness: 0.005 },
             Shape::Capsule { radius: 0.01, length: 0.03 },
         ]
+    }
+
+    /// A capsule's table grows with its radius over the support, and must not take all memory.
+    #[test]
+    fn what_is_far_larger_than_a_support_has_no_table() {
+        let table = |radius: f64| {
+            VolumeMap::for_shape(&Shape::Capsule { radius, length: 0.01 }, Kernel::Wendland, SUPPORT)
+        };
+        assert!(table(10.0 * SUPPORT).is_some());
+        assert!(table(1000.0 * SUPPORT).is_none());
     }
 
     /// λ and its gradient by brute force, on cells of H/40.

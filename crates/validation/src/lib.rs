@@ -19,6 +19,7 @@ mod run;
 mod setup;
 mod shortfalls;
 pub mod stats;
+pub mod stress;
 mod worlds;
 
 pub use case::{Case, Parameter};

@@ -53,6 +53,9 @@ pub(crate) struct Dfsph {
     /// Share of the compression that the pressure may leave unanswered.
     tolerance: f32,
     max_iterations: usize,
+    /// Largest pressure over rest density, m²/s²: what stops fluid at the highest speed that the last guard leaves it. Drops
+    /// between bodies that yield would else be answered by any.
+    most: f32,
     /// Square of the largest factor by which the pressure's sum answers a wave on a lattice, 1/m².
     stiffest: f32,
     /// Share of a full neighbourhood that a particle of a level surface has.
@@ -111,6 +114,7 @@ impl Dfsph {
             gravity: s.gravity.as_vec3(),
             tolerance: s.tolerance as f32,
             max_iterations: s.max_iterations,
+            most: config.highest_speed().powi(2) as f32,
             stiffest: stiffest_wave(dx, h) as f32,
             level: level_surface(dx, h) as f32,
         }

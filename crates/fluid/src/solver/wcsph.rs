@@ -216,12 +216,14 @@ impl Wcsph {
             // Spray that has been squeezed lets go at once: a drop splashes on a wall and does not bounce.
             let lets_go = particles.fill[i] < SPRAY && r.divergence > 0.0;
             let free = lets_go || particles.held[i] > 0.0;
-            let p = if free { 0.0 } else { (particles.p[i] + change).max(self.floor) };
+            // No more than twice the density at rest bears: what is squeezed without end, between solids or by a cap
+            // on speeds, would else load them without end.
+            let p = if free { 0.0 } else { (particles.p[i] + change).clamp(self.floor, c2) };
             particles.p[i] = p;
             let rough = (QUIET_SHARE + self.rough * r.laplacian.length()).min(1.0);
             let damper = (self.damper * (1.0 + QUIET_DAMPING * (1.0 - rough))).min(most);
             let acting = p - damper * r.divergence;
-            particles.aux[i] = acting.max(self.floor) + self.background;
+            particles.aux[i] = acting.clamp(self.floor, 2.0 * c2) + self.background;
             let l = r.laplacian * (particles.inner[i] * rough);
             (particles.lx[i], particles.ly[i], particles.lz[i]) = (l.x, l.y, l.z);
         }

@@ -24,11 +24,17 @@ impl Descent {
         self.momentum = 1.0;
     }
 
-    /// One iteration: `at` is the point ahead at which `left` was found, and becomes the next.
-    pub fn advance(&mut self, at: &mut [f32], sites: &[Site], scale: f32, left: impl Fn(usize) -> f32) {
+    /// One iteration: `at` is the point ahead at which `left` was found, and becomes the next; none is larger than `most`.
+    pub fn advance(
+        &mut self,
+        at: &mut [f32],
+        sites: &[Site],
+        (scale, most): (f32, f32),
+        left: impl Fn(usize) -> f32,
+    ) {
         let mut climb = 0.0_f64;
         for (i, site) in sites.iter().enumerate() {
-            let next = (at[i] + left(i) * site.relief * scale).max(0.0);
+            let next = (at[i] + left(i) * site.relief * scale).clamp(0.0, most);
             climb -= f64::from(left(i) * (next - self.last[i]));
             at[i] = next;
         }
@@ -37,7 +43,7 @@ impl Descent {
         let ahead = (before - 1.0) / self.momentum;
         for (at, last) in at.iter_mut().zip(&mut self.last).take(sites.len()) {
             let next = *at;
-            *at = (next + ahead * (next - *last)).max(0.0);
+            *at = (next + ahead * (next - *last)).clamp(0.0, most);
             *last = next;
         }
     }

@@ -38,7 +38,8 @@ impl Solve<'_> {
             if enough || iterations >= self.solver.max_iterations {
                 return iterations;
             }
-            self.descent.advance(&mut self.particles.aux, sites, 1.0 / self.around.dt, left);
+            let scale = (1.0 / self.around.dt, self.solver.most);
+            self.descent.advance(&mut self.particles.aux, sites, scale, left);
             self.particles.refresh_images();
             iterations += 1;
         }
@@ -88,7 +89,7 @@ impl Solve<'_> {
     pub fn take_pressures(&mut self) {
         for (i, (site, opening)) in self.sites.iter().zip(&*self.openings).enumerate() {
             let ahead = site.relief / self.around.dt * (-opening - site.closing);
-            self.particles.p[i] = (self.particles.aux[i] + ahead).max(0.0);
+            self.particles.p[i] = (self.particles.aux[i] + ahead).clamp(0.0, self.solver.most);
         }
     }
 
@@ -104,7 +105,7 @@ impl Solve<'_> {
             if violation(&self.particles.aux, sites, left) <= DENSITY_ERROR {
                 return iteration;
             }
-            self.descent.advance(&mut self.particles.aux, sites, 1.0, left);
+            self.descent.advance(&mut self.particles.aux, sites, (1.0, f32::INFINITY), left);
             self.try_shifts(shifts);
         }
         self.solver.max_iterations
