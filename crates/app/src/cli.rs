@@ -77,6 +77,9 @@ pub struct RunArgs {
     /// Fluid frames a second.
     #[arg(long, value_name = "N")]
     pub fluid_hz: Option<f64>,
+    /// Time that a fluid frame takes to compute, in frames, 0 to 1, where the run is not in real time.
+    #[arg(long, value_name = "FRAMES")]
+    pub fluid_delay: Option<f64>,
     /// Run in real time, with a live force meter; else as fast as it goes, the same each time.
     #[arg(long)]
     pub realtime: bool,

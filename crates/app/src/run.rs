@@ -74,7 +74,11 @@ fn scene(args: &RunArgs) -> Result<Scene, Failure> {
             put(path, Value::Text(word.clone()))?;
         }
     }
-    for (path, number) in [("run.duration", args.duration), ("run.fluid_hz", args.fluid_hz)] {
+    for (path, number) in [
+        ("run.duration", args.duration),
+        ("run.fluid_hz", args.fluid_hz),
+        ("run.fluid_delay", args.fluid_delay),
+    ] {
         if let Some(number) = number {
             put(path, Value::Number(number))?;
         }

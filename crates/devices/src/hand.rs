@@ -4,19 +4,25 @@ use crate::mass::Mass;
 use crate::{DeviceError, HandSettings, HapticDevice, Pacing, PathPoint, TargetScript};
 use glam::DVec3;
 use hapflow_haptics::{GatedWrench, ToolState, VelocityEstimator};
+use std::collections::VecDeque;
 
 /// Longest stretch of time that is simulated at once, s: after a longer pause the hand goes on from where it
 /// was, and only the end of the pause is lived through, so that no tick takes long.
 const MAX_GAP_S: f64 = 0.1;
 
+/// Most forces that are on their way to the device at once: those of 50 ms at 1 kHz, and a few.
+const MOST_PENDING: usize = 64;
+
 /// A hand that follows a [`TargetScript`] and gives way to the force that is written:
 ///
-/// (m_device + m_hand) x″ = F + k (p − x) + b_hand (p′ − x′) − b_device x′,
+/// (m_device + m_hand) x″ = F + k (p − x) + b_hand (p′ − x′) − b_device x′ − f x′/|x′|,
 ///
 /// with p, p′ the script's place and velocity. That is the usual impedance of a hand about a wanted motion
 /// (N. Hogan, "Impedance control", J. Dyn. Sys. Meas. Control 107 (1985), doi:10.1115/1.3140702).
 ///
-/// A written force acts until the next one, so over the tick that follows; [`read`](HapticDevice::read) lives
+/// A written force acts after the transport's delay until the next one, so without delay over the tick that follows. Dry
+/// friction f takes its impulse off each step's momentum, and never turns it round; at rest it lets the device creep by
+/// less than a tenth of a millimetre a second. [`read`](HapticDevice::read) lives
 /// through the time up to the one asked for, in steps of at most 0.25 ms that are exact for a steady force
 /// and a straight wish. The first read is the beginning: the hand is at rest at the script's start. A time
 /// that does not grow moves nothing. Costs about a microsecond a tick.
@@ -26,6 +32,8 @@ pub struct SimulatedHand {
     script: TargetScript,
     mass: Mass,
     force: DVec3,
+    /// Forces that are on their way: when each begins to act, s, and what it is, N.
+    pending: VecDeque<(f64, DVec3)>,
     time_s: Option<f64>,
     velocity: VelocityEstimator,
     closed: bool,
@@ -46,7 +54,17 @@ impl SimulatedHand {
             velocity: DVec3::ZERO,
         };
         let velocity = VelocityEstimator::new(settings.velocity_cutoff_hz)?;
-        Ok(Self { settings, script, mass, force: DVec3::ZERO, time_s: None, velocity, closed: false })
+        let pending = VecDeque::with_capacity(MOST_PENDING);
+        Ok(Self {
+            settings,
+            script,
+            mass,
+            force: DVec3::ZERO,
+            pending,
+            time_s: None,
+            velocity,
+            closed: false,
+        })
     }
 
     /// Its settings.
@@ -79,19 +97,27 @@ impl SimulatedHand {
     fn advance(&mut self, begin_s: f64, gap_s: f64) {
         let steps = (gap_s / self.mass.longest_step_s()).ceil().max(1.0);
         let step_s = gap_s / steps;
-        let mut from = self.drive(begin_s);
-        for n in 1..=steps as u32 {
-            let to = self.drive(begin_s + f64::from(n) * step_s);
-            self.mass.advance(from, to, step_s);
+        let mut from = self.wish(begin_s);
+        for n in 0..steps as u32 {
+            self.take_forces(begin_s + (f64::from(n) + 0.5) * step_s);
+            let to = self.wish(begin_s + f64::from(n + 1) * step_s);
+            self.mass.advance(self.force + from, self.force + to, step_s);
+            self.mass.rub(self.settings.device_friction_n, step_s);
             from = to;
         }
     }
 
-    /// What pulls at the mass from outside at `time_s`: the written force, and the hand's wish, N.
-    fn drive(&self, time_s: f64) -> DVec3 {
+    /// The newest force that acts at `time_s`.
+    fn take_forces(&mut self, time_s: f64) {
+        while let Some((_, force)) = self.pending.pop_front_if(|(acts_s, _)| *acts_s <= time_s) {
+            self.force = force;
+        }
+    }
+
+    /// How the hand's wish pulls at the mass at `time_s`, N.
+    fn wish(&self, time_s: f64) -> DVec3 {
         let wish = self.script.at(time_s);
-        self.force
-            + wish.position * self.settings.hand_stiffness_n_per_m
+        wish.position * self.settings.hand_stiffness_n_per_m
             + wish.velocity * self.settings.hand_damping_n_s_per_m
     }
 
@@ -123,12 +149,17 @@ impl HapticDevice for SimulatedHand {
 
     fn write(&mut self, wrench: GatedWrench, _dt_s: f64) -> Result<(), DeviceError> {
         DeviceError::if_closed(self.closed, "hand")?;
-        self.force = wrench.force();
+        if self.pending.len() == MOST_PENDING {
+            self.pending.pop_front();
+        }
+        let acts_s = self.time_s.unwrap_or(0.0) + self.settings.transport_delay_s;
+        self.pending.push_back((acts_s, wrench.force()));
         Ok(())
     }
 
     fn close(&mut self) {
         self.force = DVec3::ZERO;
+        self.pending.clear();
         self.closed = true;
     }
 }
@@ -229,6 +260,36 @@ mod tests {
             }
             assert!(before < 0.1, "{}: {before} J", preset.name());
         }
+    }
+
+    #[test]
+    fn a_written_force_acts_after_the_transports_delay() {
+        let settings = HandSettings { transport_delay_s: 0.003, ..HandSettings::preset(HandPreset::Free) };
+        let mut hand = hand(settings, &[]);
+        for tick in 0..=4 {
+            let tool = hand.read(f64::from(tick) * DT).unwrap();
+            assert_eq!(tool.velocity.x > 0.0, tick == 4, "tick {tick}: {}", tool.velocity);
+            hand.write(gated(DVec3::X), DT).unwrap();
+        }
+    }
+
+    /// A push below the dry friction moves nothing; one above moves by the difference; without a push it stops.
+    #[test]
+    fn dry_friction_holds_and_slows() {
+        let free = HandSettings { device_damping_n_s_per_m: 0.0, ..HandSettings::preset(HandPreset::Free) };
+        let settings = HandSettings { device_friction_n: 0.3, ..free };
+        let mut hand = hand(settings, &[]);
+        let mut run = |ticks: std::ops::Range<u32>, push: f64| {
+            for tick in ticks {
+                hand.read(f64::from(tick) * DT).unwrap();
+                hand.write(gated(DVec3::X * push), DT).unwrap();
+            }
+            hand.truth()
+        };
+        assert!(run(0..500, 0.29).position.x < 1e-4);
+        let pushed = run(500..1000, 1.0);
+        assert!((pushed.velocity.x / (0.7 / 0.2 * 0.498) - 1.0).abs() < 0.01, "{}", pushed.velocity);
+        assert_eq!(run(1000..3000, 0.0).velocity, DVec3::ZERO);
     }
 
     #[test]

@@ -68,6 +68,10 @@ pub struct HandSettings {
     pub device_mass_kg: f64,
     /// Viscous damping of the device, N·s/m, 0 to 50. Default 0.5: its bearings and motors.
     pub device_damping_n_s_per_m: f64,
+    /// Dry (Coulomb) friction of the device, N, 0 to 5. Default 0.
+    pub device_friction_n: f64,
+    /// Time from the writing of a force until it acts, s, 0 to 0.05. Default 0; 1 to 3 ms by USB.
+    pub transport_delay_s: f64,
     /// Mass of the hand that moves with it, kg, 0 to 10. Default 0.15 (`normal`).
     pub hand_mass_kg: f64,
     /// Damping of the hand against its wanted velocity, N·s/m, 0 to 50. Default 4 (`normal`).
@@ -91,6 +95,8 @@ impl HandSettings {
         Self {
             device_mass_kg: 0.2,
             device_damping_n_s_per_m: 0.5,
+            device_friction_n: 0.0,
+            transport_delay_s: 0.0,
             hand_mass_kg: mass,
             hand_damping_n_s_per_m: damping,
             hand_stiffness_n_per_m: stiffness,
@@ -106,6 +112,8 @@ impl HandSettings {
     pub fn check(&self) -> Result<(), RangeError> {
         check_range("device_mass_kg", self.device_mass_kg, 0.02, 10.0)?;
         check_range("device_damping_n_s_per_m", self.device_damping_n_s_per_m, 0.0, 50.0)?;
+        check_range("device_friction_n", self.device_friction_n, 0.0, 5.0)?;
+        check_range("transport_delay_s", self.transport_delay_s, 0.0, 0.05)?;
         check_range("hand_mass_kg", self.hand_mass_kg, 0.0, 10.0)?;
         check_range("hand_damping_n_s_per_m", self.hand_damping_n_s_per_m, 0.0, 50.0)?;
         check_range("hand_stiffness_n_per_m", self.hand_stiffness_n_per_m, 0.0, 5000.0)?;
@@ -137,9 +145,11 @@ mod tests {
     #[test]
     fn each_field_is_checked_by_name() {
         type Spoil = fn(&mut HandSettings);
-        let spoil: [(&str, Spoil); 7] = [
+        let spoil: [(&str, Spoil); 9] = [
             ("device_mass_kg", |s| s.device_mass_kg = 0.0),
             ("device_damping_n_s_per_m", |s| s.device_damping_n_s_per_m = -1.0),
+            ("device_friction_n", |s| s.device_friction_n = 5.1),
+            ("transport_delay_s", |s| s.transport_delay_s = 0.06),
             ("hand_mass_kg", |s| s.hand_mass_kg = f64::NAN),
             ("hand_damping_n_s_per_m", |s| s.hand_damping_n_s_per_m = 51.0),
             ("hand_stiffness_n_per_m", |s| s.hand_stiffness_n_per_m = f64::INFINITY),

@@ -49,6 +49,12 @@ impl Mass {
         self.position = position;
         self.velocity = velocity;
     }
+
+    /// Dry friction of `force` (N) for `step_s`: it takes speed, and at most all.
+    pub(crate) fn rub(&mut self, force: f64, step_s: f64) {
+        let (speed, taken) = (self.velocity.length(), force * step_s / self.mass_kg);
+        self.velocity *= if taken < speed { 1.0 - taken / speed } else { 0.0 };
+    }
 }
 
 #[cfg(test)]

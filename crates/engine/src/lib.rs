@@ -21,6 +21,7 @@ mod force_limit;
 mod form;
 mod mesh_file;
 mod obstacles;
+mod pace;
 mod recorder;
 mod recording;
 pub mod run;
@@ -45,6 +46,7 @@ pub use error::SceneError;
 pub use fluid_unit::{BodyReport, FluidReport, FluidUnit};
 pub use form::{Form, FormKind};
 pub use obstacles::ObstacleMover;
+pub use pace::VirtualPace;
 pub use recorder::Recorded;
 pub use recording::{Recording, Row, TickWriter};
 pub use scene::{

@@ -2,7 +2,7 @@
 
 use crate::{
     BodyReport, Drive, FluidPace, FluidReport, Recording, Scene, SceneError, ServoReport, Session,
-    SessionOptions, TickTimes, TickWriter, open_device,
+    SessionOptions, TickTimes, TickWriter, VirtualPace, open_device,
 };
 use hapflow_fluid::ParticleView;
 use hapflow_haptics::FaultSet;
@@ -93,7 +93,8 @@ pub struct Outcome {
 const TELL_EVERY: u64 = 20;
 
 /// Runs `scene` on a virtual clock: as fast as it goes, and the same each time. A fluid frame's model is
-/// published one whole frame after its tool path ended, as a real machine would: no free look ahead.
+/// published `run.fluid_delay` frames (one, by default) after its tool path ended, as a real machine would: no free look
+/// ahead.
 ///
 /// # Errors
 /// What [`Session::open`] refuses, or a recording that cannot be written.
@@ -105,17 +106,12 @@ pub fn virtual_clock(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, 
         return Err(SceneError::Refused("the session's halves are taken".into()));
     };
     let mut run = Run::begin(scene, options.record)?;
-    let mut frames = 0_u64;
+    let mut pace = VirtualPace::new(scene);
     let mut pictures = options.pictures_at.iter().peekable();
     let ticks = (scene.run.duration / TICK_S).round() as u64;
     for n in 0..ticks {
         let time_s = n as f64 * TICK_S;
-        while frame_end(frames + 1, scene) <= time_s + 1e-9 {
-            frames += 1;
-            let end = frame_end(frames, scene);
-            fluid.publish(end);
-            fluid.compute(end);
-        }
+        pace.advance(&mut fluid, time_s);
         let state = device.read(time_s)?;
         let before = Instant::now();
         let wrench = servo.tick(&state, time_s, TICK_S);
@@ -134,11 +130,6 @@ pub fn virtual_clock(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, 
     }
     device.close();
     run.end(*fluid.newest())
-}
-
-/// When frame `k` ends, s.
-fn frame_end(k: u64, scene: &Scene) -> f64 {
-    k as f64 / scene.run.fluid_hz
 }
 
 /// Runs `scene` in real time: a servo thread at 1 kHz, a fluid thread, and main that records.

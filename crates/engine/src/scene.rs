@@ -46,6 +46,8 @@ pub struct RunSettings {
     pub duration: f64,
     /// Fluid frames a second, Hz.
     pub fluid_hz: f64,
+    /// On the virtual clock: time from the end of a frame's tool path until its model is published, in frames.
+    pub fluid_delay: f64,
     /// How the tool meets the fluid.
     pub coupling: CouplingKind,
     /// What smooths the force; none takes the coupling's own.
@@ -231,6 +233,7 @@ impl Default for Scene {
             run: RunSettings {
                 duration: 5.0,
                 fluid_hz: 100.0,
+                fluid_delay: 1.0,
                 coupling: CouplingKind::Direct,
                 filter: None,
                 backend: BackendKind::Cpu,
@@ -302,6 +305,8 @@ impl Scene {
             CouplingKind::Momentum => {
                 FilterSpec::Window { kind: WindowKind::BartlettHann, taps: 11, place: TapPlace::Fluid }
             }
+            // It has no steps to smooth.
+            CouplingKind::Local => FilterSpec::None,
             CouplingKind::Direct => {
                 let taps = (1000.0 / self.run.fluid_hz).round().max(1.0) as usize;
                 FilterSpec::Window { kind: WindowKind::Boxcar, taps, place: TapPlace::Servo }

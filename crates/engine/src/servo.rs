@@ -4,7 +4,8 @@ use crate::force_limit::ForceLimit;
 use crate::touch::Touch;
 use glam::DVec3;
 use hapflow_haptics::{
-    FaultSet, Filter, GateSettings, GatedWrench, LocalModel, Mapping, ModelAge, SafetyGate, ToolState, Wrench,
+    FaultSet, Filter, GateSettings, GatedWrench, LocalModel, Mapping, ModelAge, Rendering, SafetyGate,
+    ToolState, Wrench,
 };
 use hapflow_realtime::{HostClock, LatestReader, LatestWriter, RingProducer, SharedFlags};
 use std::sync::Arc;
@@ -53,6 +54,7 @@ pub struct ServoReport {
 /// The servo's half of a session.
 pub struct ServoUnit {
     pub(crate) mapping: Mapping,
+    pub(crate) rendering: Rendering,
     pub(crate) filter: Filter,
     pub(crate) gate: SafetyGate,
     pub(crate) limit: ForceLimit,
@@ -101,25 +103,25 @@ impl ServoUnit {
         let (in_fluid, pushed) = self.touch_solids(&tool, time_s, dt_s);
         let lost = self.path.push(PathSample { time_s, tool: in_fluid });
         let new_frame = self.model.update();
-        let model = *self.model.get();
-        let raw = model.evaluate(&tool) * self.force_scale;
+        let model = self.model.get();
+        let raw = self.rendering.tick(model, new_frame, &tool, time_s) * self.force_scale;
         let filtered = self.filter.step(raw, new_frame);
         // Solids are not filtered: they would feel late, and soft.
         let felt = filtered + Wrench::from_force(pushed);
         let wanted = self.mapping.to_device(felt) + self.mapping.rim_force(&self.last_device);
-        let age = self.age(&model, time_s);
+        let (age, body, frame) = (self.age(model, time_s), model.body, model.frame);
         let faults = faults | FaultSet::PATH_OVERFLOW.when(lost);
         let sent = self.gate.pass(wanted, &age, faults, dt_s);
         self.newest = ServoReport {
             tick: self.newest.tick + 1,
             time_s,
             tool,
-            body: model.body,
+            body,
             raw,
             filtered,
             sent: self.mapping.wrench_to_scene(sent.wrench()),
             faults: self.gate.faults(),
-            frame: model.frame,
+            frame,
             age_s: age.age_s,
         };
         self.report.write(self.newest);

@@ -16,7 +16,7 @@ use hapflow_devices::HapticDevice;
 use hapflow_fluid::{
     AnalyticJet, BodyConfig, BodyLoad, BodySample, CpuBackend, FluidBackend, FluidConfig, ParticleView,
 };
-use hapflow_haptics::{Filter, LocalModel, SafetyGate, ToolState, Touching};
+use hapflow_haptics::{Filter, LocalModel, Rendering, SafetyGate, ToolState, Touching};
 use hapflow_realtime::{
     Clock, HostClock, LatestReader, LatestWriter, RealtimeStatus, RingConsumer, SharedFlags, latest, ring,
 };
@@ -442,6 +442,7 @@ fn open_tool(
     let servo = ServoUnit {
         last_device: mapping.device_state(ToolState::at(tool.position)),
         mapping,
+        rendering: Rendering::new(scene.run.coupling),
         filter: Filter::new(&scene.filter(), 1000.0)?,
         gate: SafetyGate::new(scene.gate)?,
         limit: control.limit.clone(),

@@ -226,7 +226,15 @@ const RUN_AND_FLUID: &[Setting<Scene>] = &[
         run.fluid_hz,
         "Fluid frames a second; each gives the servo one new model."
     ),
-    choice!("run.coupling", FIXED, run.coupling, ["direct" => CouplingKind::Direct, "momentum" => CouplingKind::Momentum], "How tool and fluid meet: `direct` leads the tool along the device's path and renders the fluid's mean load; `momentum` is the thesis's baseline."),
+    number!(
+        "run.fluid_delay",
+        "frames",
+        0.0..=1.0,
+        FIXED,
+        run.fluid_delay,
+        "Time that a frame takes to compute, on the virtual clock."
+    ),
+    choice!("run.coupling", FIXED, run.coupling, ["direct" => CouplingKind::Direct, "momentum" => CouplingKind::Momentum, "local" => CouplingKind::Local], "How tool and fluid meet: `direct` leads the tool along the device's path and renders the fluid's mean load; `momentum` is the thesis's baseline; `local` renders a model of the fluid round the tool, at the hand's newest place."),
     Setting {
         path: "run.filter",
         unit: "",
@@ -589,6 +597,22 @@ const OTHERS: &[Setting<Scene>] = &[
         FIXED,
         hand.device_damping_n_s_per_m,
         "Damping of the simulated device."
+    ),
+    number!(
+        "hand.device_friction",
+        "N",
+        0.0..=5.0,
+        FIXED,
+        hand.device_friction_n,
+        "Dry friction of the simulated device."
+    ),
+    number!(
+        "hand.transport_delay",
+        "s",
+        0.0..=0.05,
+        FIXED,
+        hand.transport_delay_s,
+        "Time from the writing of a force until it acts; 1 to 3 ms by USB."
     ),
     number!("hand.mass", "kg", 0.0..=100.0, FIXED, hand.hand_mass_kg, "Mass of the simulated hand."),
     number!(

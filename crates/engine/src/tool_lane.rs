@@ -3,7 +3,7 @@
 use crate::servo::PathSample;
 use glam::DVec3;
 use hapflow_fluid::{BodyConfig, BodyDrive, BodyLoad, BodyMotion, BodySample};
-use hapflow_haptics::{BodyState, Coupling, Drive, LocalModel, ToolState, Wrench};
+use hapflow_haptics::{BodyState, Coupling, Drive, Forecast, LocalModel, ToolState, Wrench};
 use hapflow_realtime::{LatestWriter, RingConsumer};
 
 /// Samples of a path that a frame takes; more are passed over.
@@ -21,9 +21,20 @@ pub(crate) struct ToolLane {
     /// A sample that belongs to the next frame.
     ahead: Option<PathSample>,
     last: PathSample,
-    /// Where the last frame's path ended, m.
-    path_end: DVec3,
+    /// Where the last frame's path ended.
+    path_end: BodySample,
+    forecast: Forecast,
+    /// Time from the end of a frame until its model is handed over, s, over the last frames.
+    delay_s: f64,
 }
+
+/// Frames by which the blended mean of a frame is late when its model is handed over at once: half of the frame that it is
+/// the mean of, and the one over which it is blended in.
+const OWN_DELAY: f64 = 1.5;
+/// Share of the newest frame in the mean delay.
+const NEWEST: f64 = 0.2;
+/// Points of a path that is carried on.
+const POINTS: usize = 8;
 
 /// One frame, as the lanes need it.
 #[derive(Clone, Copy)]
@@ -54,7 +65,9 @@ impl ToolLane {
             samples: Vec::with_capacity(MOST_SAMPLES + 2),
             ahead: None,
             last: PathSample { time_s: 0.0, tool: ToolState::at(position) },
-            path_end: position,
+            path_end: BodySample::at(position),
+            forecast: Forecast::new(ToolState::at(position)),
+            delay_s: 0.0,
         }
     }
 
@@ -87,7 +100,7 @@ impl ToolLane {
         let wrench = self.coupling.end_frame(&self.body_state(config), load, frame.length_s);
         self.pending = Some(LocalModel {
             frame: frame.number,
-            path_end_s: frame.end_s,
+            path_end_s: frame.end_s + self.lead_s(frame),
             published_s: frame.end_s,
             frame_s: frame.length_s,
             wrench: if wrench.is_finite() { wrench } else { Wrench::ZERO },
@@ -99,6 +112,9 @@ impl ToolLane {
     /// Hands the waiting model to the servo, at `now_s` on its clock.
     pub fn publish(&mut self, now_s: f64) {
         if let Some(model) = self.pending.take() {
+            let delay_s = now_s - model.published_s;
+            let share = if model.frame > 1 { NEWEST } else { 1.0 };
+            self.delay_s += (delay_s.clamp(0.0, 2.0 * model.frame_s) - self.delay_s) * share;
             self.model.write(LocalModel { published_s: now_s, ..model });
         }
     }
@@ -124,9 +140,13 @@ impl ToolLane {
                 break;
             }
             self.last = next;
+            self.forecast.take(next.time_s, &next.tool);
             if next.time_s > start_s && self.samples.len() <= MOST_SAMPLES {
                 self.samples.push(sample(next.time_s, &next.tool));
             }
+        }
+        if self.coupling.leads() {
+            return self.lead_path(frame);
         }
         let end = self.tool_at(frame.end_s, frame);
         self.samples.push(sample(frame.end_s, &end));
@@ -134,17 +154,38 @@ impl ToolLane {
         end
     }
 
+    /// How far ahead of the frame's end the path ends, s.
+    fn lead_s(&self, frame: FrameTime) -> f64 {
+        if self.coupling.leads() { self.delay_s + OWN_DELAY * frame.length_s } else { 0.0 }
+    }
+
+    /// Puts a smooth way from where the last frame's path ended to where the tool will be when this frame is felt in the
+    /// place of the samples, and returns the tool there.
+    fn lead_path(&mut self, frame: FrameTime) -> ToolState {
+        let end = self.forecast.at(frame.end_s + self.lead_s(frame));
+        let (from, to) = (self.path_end, sample(frame.end_s, &end));
+        let start_s = frame.end_s - frame.length_s;
+        self.samples.clear();
+        for k in 0..=POINTS {
+            let share = k as f64 / POINTS as f64;
+            let time = start_s + share * frame.length_s;
+            self.samples.push(between(&from, &to, share, frame.length_s, time));
+        }
+        self.path_end = to;
+        end
+    }
+
     /// Makes the path begin where the last frame's ended. They differ when frames were skipped: then the way
     /// between is spread over this frame, for a jump would strike the fluid.
     fn join_path(&mut self, frame: FrameTime) {
         let Some(first) = self.samples.first().copied() else { return };
-        let gap = self.path_end - first.position;
+        let gap = self.path_end.position - first.position;
         for sample in &mut self.samples {
             let left = ((frame.end_s - sample.time) / frame.length_s).clamp(0.0, 1.0);
             sample.position += gap * left;
             sample.velocity -= gap / frame.length_s;
         }
-        self.path_end = self.samples.last().map_or(self.path_end, |s| s.position);
+        self.path_end = self.samples.last().copied().unwrap_or(self.path_end);
     }
 
     /// The tool at `time_s`, carried on from its newest sample by at most two frames.
@@ -152,6 +193,20 @@ impl ToolLane {
         let ahead = (time_s - self.last.time_s).clamp(0.0, 2.0 * frame.length_s);
         let tool = self.last.tool;
         ToolState { position: tool.position + tool.velocity * ahead, ..tool }
+    }
+}
+
+/// A cubic through both ends, with their velocities, `length_s` apart.
+fn between(from: &BodySample, to: &BodySample, share: f64, length_s: f64, time: f64) -> BodySample {
+    let (v0, v1) = (from.velocity * length_s, to.velocity * length_s);
+    let way = to.position - from.position;
+    let (square, cube) = (3.0 * way - 2.0 * v0 - v1, v0 + v1 - 2.0 * way);
+    BodySample {
+        time,
+        position: from.position + ((cube * share + square) * share + v0) * share,
+        velocity: ((cube * (3.0 * share) + square * 2.0) * share + v0) / length_s,
+        orientation: from.orientation.slerp(to.orientation, share),
+        angular_velocity: from.angular_velocity.lerp(to.angular_velocity, share),
     }
 }
 

@@ -1,8 +1,8 @@
 //! Couplings: how a tool moves in the fluid, and what of the fluid's load becomes the force on the hand.
 //!
 //! A coupling has two halves. Once a fluid frame, on the fluid's side, it says how the tool's body moves
-//! ([`Coupling::begin_frame`]) and makes a [`LocalModel`] of what came of it ([`Coupling::end_frame`]). At
-//! every servo tick [`LocalModel::evaluate`] gives the force at the hand's newest position.
+//! ([`Coupling::begin_frame`]) and makes a [`LocalModel`](crate::LocalModel) of what came of it ([`Coupling::end_frame`]).
+//! At every servo tick a [`Rendering`](crate::Rendering) makes a force of it at the hand's newest position.
 
 use crate::{ToolState, Wrench};
 use glam::DVec3;
@@ -15,17 +15,21 @@ pub enum CouplingKind {
     /// The thesis's: the body has a mass and is driven to the device by a force; the hand feels the fluid's
     /// share of its change of momentum. The baseline.
     Momentum,
+    /// The body goes where the hand will be when the frame's answer is felt, and the hand feels a model of the fluid
+    /// round the tool at its own newest place.
+    Local,
 }
 
 impl CouplingKind {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Direct, Self::Momentum];
+    pub const ALL: [Self; 3] = [Self::Direct, Self::Momentum, Self::Local];
 
     /// Name by which a scene asks for it.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Direct => "direct",
             Self::Momentum => "momentum",
+            Self::Local => "local",
         }
     }
 
@@ -39,6 +43,7 @@ impl CouplingKind {
         match self {
             Self::Direct => Box::new(Direct),
             Self::Momentum => Box::new(Momentum::default()),
+            Self::Local => Box::new(Local),
         }
     }
 }
@@ -68,32 +73,13 @@ pub enum Drive {
     },
 }
 
-/// What the servo gets of one fluid frame: everything that it needs to make a force by itself.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LocalModel {
-    /// Number of the frame, from 1; 0 says that there is none yet.
-    pub frame: u64,
-    /// When the tool path that it answers ended, s.
-    pub path_end_s: f64,
-    /// When it was handed over, s.
-    pub published_s: f64,
-    /// Length of a frame, s.
-    pub frame_s: f64,
-    /// The force and torque of that frame, scene frame.
-    pub wrench: Wrench,
-    /// Where the tool's body was at its end, m.
-    pub body: DVec3,
-}
-
-impl LocalModel {
-    /// The wrench on a tool in this state. Thread: servo. Both couplings of today hold the frame's force.
-    pub fn evaluate(&self, _tool: &ToolState) -> Wrench {
-        self.wrench
-    }
-}
-
 /// The fluid-side half of a coupling. Thread: fluid.
 pub trait Coupling: Send {
+    /// Whether the tool's path is carried on to where the hand will be when the frame's answer is felt.
+    fn leads(&self) -> bool {
+        false
+    }
+
     /// How the body moves in the frame of `frame_s` seconds whose tool path ends at `device`.
     fn begin_frame(&mut self, body: &BodyState, device: &ToolState, frame_s: f64) -> Drive;
 
@@ -133,6 +119,24 @@ impl Coupling for Momentum {
     fn end_frame(&mut self, body: &BodyState, load: Wrench, frame_s: f64) -> Wrench {
         let force = body.mass * (body.velocity - self.after_drive) / frame_s;
         Wrench { force, torque: load.torque * body.collision_response }
+    }
+}
+
+/// See [`CouplingKind::Local`].
+#[derive(Debug)]
+struct Local;
+
+impl Coupling for Local {
+    fn leads(&self) -> bool {
+        true
+    }
+
+    fn begin_frame(&mut self, _: &BodyState, _: &ToolState, _: f64) -> Drive {
+        Drive::Led
+    }
+
+    fn end_frame(&mut self, _: &BodyState, load: Wrench, _: f64) -> Wrench {
+        load
     }
 }
 

@@ -17,30 +17,36 @@ mod axes;
 mod coupling;
 mod fault;
 mod filter;
+mod forecast;
 mod gate;
 mod gate_settings;
 mod gated_wrench;
+mod local_model;
 mod mapping;
 mod proxy;
 mod range;
+mod rendering;
 mod rim;
 mod solid;
 mod types;
 mod velocity;
 
 pub use axes::{Axes, AxesError};
-pub use coupling::{BodyState, Coupling, CouplingKind, Drive, LocalModel};
+pub use coupling::{BodyState, Coupling, CouplingKind, Drive};
 pub use fault::FaultSet;
 pub use filter::{
     DEFAULT_BUTTERWORTH_ORDER, DEFAULT_SERVO_RATE_HZ, Filter, FilterError, FilterSpec, MAX_BUTTERWORTH_ORDER,
     MAX_TAPS, TapPlace, WindowKind,
 };
+pub use forecast::Forecast;
 pub use gate::{MAX_TICK_S, ModelAge, SafetyGate};
 pub use gate_settings::GateSettings;
 pub use gated_wrench::GatedWrench;
+pub use local_model::LocalModel;
 pub use mapping::Mapping;
 pub use proxy::{Contact, MAX_CONTACTS, Proxy, SolidFeel, Touching};
 pub use range::{RangeError, check_range};
+pub use rendering::Rendering;
 pub use rim::{Rim, Workspace, WorkspaceError};
 pub use solid::{Pose, Solid, SolidKind, SolidShape, ground, open_box};
 pub use types::{ToolState, Wrench};

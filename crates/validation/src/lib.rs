@@ -11,6 +11,7 @@
 mod case;
 mod cases;
 mod error;
+mod felt;
 mod measure;
 mod plan;
 pub mod reference;
@@ -25,7 +26,7 @@ mod worlds;
 pub use case::{Case, Parameter};
 pub use cases::{CASES, find};
 pub use error::ValidationError;
-pub use measure::{Measure, Target};
+pub use measure::{Felt, Measure, Target};
 pub use plan::Plan;
 pub use row::Row;
 pub use setup::Setup;

@@ -1,5 +1,7 @@
 //! What a case measured, and what it is compared with.
 
+use hapflow_engine::Scene;
+
 /// What a measured value is compared with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
@@ -29,13 +31,46 @@ pub struct Measure {
     pub goal: Option<f64>,
     /// Least observed order that the goal asks for.
     pub least_order: Option<f64>,
+    /// How it was felt, if it was.
+    pub felt: Option<Felt>,
+}
+
+/// How a force was felt. The measure's own goal is then what it must reach at least.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Felt {
+    /// The coupling.
+    pub coupling: &'static str,
+    /// The filter.
+    pub filter: String,
+    /// Fluid frames a second, Hz.
+    pub fluid_hz: f64,
+    /// The hand.
+    pub hand: String,
+    /// The same figure for the truth's own seeds, each against the others, where it has several.
+    pub floor: Option<f64>,
+    /// Largest error that is as good as is wished.
+    pub goal: Option<f64>,
+}
+
+impl Felt {
+    /// As `scene` is felt in a hand of that name.
+    pub(crate) fn of(scene: &Scene, hand: &str, floor: Option<f64>, goal: Option<f64>) -> Self {
+        Self {
+            coupling: scene.run.coupling.name(),
+            filter: scene.filter().to_string(),
+            fluid_hz: scene.run.fluid_hz,
+            hand: hand.into(),
+            floor,
+            goal,
+        }
+    }
 }
 
 impl Measure {
     /// `measured` against the known value `reference`.
     pub(crate) fn new(quantity: &'static str, unit: &'static str, measured: f64, reference: f64) -> Self {
         let target = Target::Value(reference);
-        Self { quantity, unit, measured, target, goal: None, least_order: None }
+        Self { quantity, unit, measured, target, goal: None, least_order: None, felt: None }
     }
 
     /// `measured` against 0, in units of `scale`.

@@ -85,7 +85,9 @@ impl Plan {
             }
         }
         let length = setup.number(case.length);
-        let cells = if first && !self.quick { &case.cells[..] } else { &case.cells[..1] };
+        let mut cells = if first && !self.quick { case.cells.to_vec() } else { vec![case.cells[0]] };
+        // A case that is for one spacing only says it thrice.
+        cells.dedup();
         let own = || cells.iter().map(|n| length / n).collect();
         let spacings = self.dx.clone().unwrap_or_else(own);
         Ok(spacings.into_iter().map(|dx| setup.at(dx)).collect())

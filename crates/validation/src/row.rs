@@ -2,6 +2,7 @@
 
 use crate::{Measure, Setup, Target, run::Report};
 use hapflow_engine::Value;
+use hapflow_haptics::CouplingKind;
 use serde_json::{Map, json};
 
 /// A quantity of a case at a spacing.
@@ -78,6 +79,17 @@ impl Row {
         Some(self.error()? <= goal && self.measure.least_order.is_none_or(met))
     }
 
+    /// Whether a missed goal counts: the baselines that a felt force is compared with are measured and not judged.
+    pub fn is_judged(&self) -> bool {
+        self.measure.felt.as_ref().is_none_or(|felt| felt.coupling == CouplingKind::Local.name())
+    }
+
+    /// Whether the goal of a felt force is met, beyond what it must reach; none where no goal applies.
+    pub fn goal_met(&self) -> Option<bool> {
+        let goal = self.measure.felt.as_ref()?.goal.filter(|_| self.dx_shipped)?;
+        Some(self.error()? <= goal)
+    }
+
     /// One line of JSON.
     pub fn json(&self) -> serde_json::Value {
         let parameters: Map<_, _> = self.parameters.iter().map(|(p, v)| (p.clone(), value(v))).collect();
@@ -102,6 +114,15 @@ impl Row {
         });
         if let Target::Zero { scale } = self.measure.target {
             line["scale"] = json!(scale);
+        }
+        if let Some(felt) = &self.measure.felt {
+            line["coupling"] = json!(felt.coupling);
+            line["filter"] = json!(felt.filter);
+            line["fluid_hz"] = json!(felt.fluid_hz);
+            line["hand"] = json!(felt.hand);
+            line["floor"] = json!(felt.floor);
+            (line["must"], line["goal"]) = (json!(self.measure.goal), json!(felt.goal));
+            line["goal_met"] = json!(self.goal_met());
         }
         line
     }

@@ -62,6 +62,11 @@ impl<'a> Setup<'a> {
         self.number(self.case.length) / self.case.cells[0]
     }
 
+    /// Worker threads.
+    pub(crate) fn threads(&self) -> usize {
+        self.threads
+    }
+
     /// Value of a parameter that is a number.
     pub fn number(&self, name: &str) -> f64 {
         if let Some(Value::Number(n)) = self.value(name) { *n } else { f64::NAN }

@@ -23,7 +23,7 @@ pub fn list(cases: &[&Case]) -> String {
 /// The first line of the table.
 pub fn head() -> String {
     format!(
-        "{:<17} {:<15} {:>9} {:>12} {:>12} {:<5} {:>9} {:>6} {:>7} {:<10} {:>9} {:>9}  parameters",
+        "{:<17} {:<19} {:>9} {:>12} {:>12} {:<5} {:>9} {:>6} {:>7} {:<12} {:>9} {:>9}  parameters",
         "case",
         "quantity",
         "dx (mm)",
@@ -44,14 +44,16 @@ pub fn line(row: &Row, known: bool) -> String {
     let m = &row.measure;
     let met = match row.pass() {
         None => "",
+        Some(true) if row.goal_met() == Some(false) => "yes, no goal",
         Some(true) => "yes",
+        Some(false) if !row.is_judged() => "no",
         Some(false) if known => "no (known)",
         Some(false) => "NO",
     };
     let percent = |x: f64| format!("{} %", number(100.0 * x));
     let maybe = |x: Option<f64>, text: fn(f64) -> String| x.map_or("-".to_string(), text);
     format!(
-        "{:<17} {:<15} {:>9.4} {:>12} {:>12} {:<5} {:>9} {:>6} {:>7} {:<10} {:>9} {:>9.2}  {}",
+        "{:<17} {:<19} {:>9.4} {:>12} {:>12} {:<5} {:>9} {:>6} {:>7} {:<12} {:>9} {:>9.2}  {}",
         row.case,
         m.quantity,
         1e3 * row.dx,
@@ -64,8 +66,16 @@ pub fn line(row: &Row, known: bool) -> String {
         met,
         row.particles,
         row.cpu_s_per_sim_s,
-        parameters(&row.parameters)
+        how(row)
     )
+}
+
+/// How it was felt, if it was, and with which parameters.
+fn how(row: &Row) -> String {
+    let parameters = parameters(&row.parameters);
+    let Some(felt) = &row.measure.felt else { return parameters };
+    let floor = felt.floor.map_or(String::new(), |f| format!(" floor={}", number(f)));
+    format!("{} {}{floor} {parameters}", felt.coupling, felt.filter)
 }
 
 fn parameters(list: &[(String, Value)]) -> String {

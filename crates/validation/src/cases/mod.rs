@@ -20,7 +20,7 @@ mod taylor_green;
 mod terminal_velocity;
 mod tow;
 
-use crate::{Case, ValidationError};
+use crate::{Case, ValidationError, felt};
 use hapflow_engine::settings;
 
 /// All cases, in the order of the table.
@@ -44,6 +44,9 @@ pub const CASES: &[Case] = &[
     spin::CASE,
     momentum::CASE,
     energy::CASE,
+    felt::CASES[0],
+    felt::CASES[1],
+    felt::CASES[2],
 ];
 
 /// The case of that name.

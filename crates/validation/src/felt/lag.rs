@@ -1,0 +1,73 @@
+//! A hand that swings in a jet, along and across it.
+
+use super::figures;
+use super::jet::{self, Bench, WARM_UP};
+use super::ways::Way;
+use crate::run::Report;
+use crate::{Case, Measure, Setup, ValidationError};
+use glam::DVec3;
+use hapflow_devices::Segment;
+
+/// Frequencies (Hz) and amplitudes (m) of the swings; each lasts a second.
+const SWINGS: [[f64; 2]; 3] = [[1.0, 0.008], [2.0, 0.005], [3.0, 0.004]];
+
+pub(super) const CASE: Case = Case {
+    name: "felt-lag",
+    about: "a hand swings in a jet at 1, 2 and 3 Hz, along it and across: lag and size of the force",
+    source: "the hand's path through a fluid stepped at 1 kHz that answers at once, mean over seeds",
+    parameters: jet::PARAMETERS,
+    length: "diameter",
+    cells: [jet::CELLS; 3],
+    variants: &[
+        &[("fluid_hz", "60"), ("backend", "cpu")],
+        &[("fluid_hz", "30")],
+        &[("fluid_hz", "125")],
+        &[("fluid_hz", "250")],
+        &[("backend", "analytic-jet")],
+    ],
+    run,
+};
+
+fn run(setup: &Setup<'_>) -> Result<Report, ValidationError> {
+    let mut bench = Bench::new(setup)?;
+    let mut measures = Vec::new();
+    for way in bench.ways()? {
+        measures.extend(swung(&mut bench, &way)?);
+    }
+    Ok(bench.report(measures))
+}
+
+/// The worst of all frequencies and both directions.
+fn swung(bench: &mut Bench<'_>, way: &Way) -> Result<Vec<Measure>, ValidationError> {
+    let felt = bench.felt(way)?;
+    let aside = DVec3::X * bench.setup.number("offset");
+    let (mut lag, mut gain, mut floor) = (0.0_f64, 0.0_f64, [0.0_f64; 2]);
+    for (place, along) in [(DVec3::ZERO, DVec3::Y), (aside, DVec3::X)] {
+        let swing = |[hz, size]: &[f64; 2]| Segment::Sine {
+            amplitude: along * *size,
+            frequency_hz: *hz,
+            duration_s: 1.0,
+        };
+        let scene = jet::scripted(&felt, place, &SWINGS.map(|s| swing(&s)), 0.0);
+        let trace = bench.run(&scene)?;
+        let truth = bench.truth_of(&trace)?;
+        for (k, [hz, _]) in SWINGS.iter().enumerate() {
+            let begin = (1e3 * WARM_UP) as usize + 1000 * k;
+            let part = begin..begin + 1000;
+            // The jet's force stays along it, whichever way the hand goes.
+            let of = |a: &[DVec3], b: &[DVec3]| {
+                figures::lag_and_gain(&a[part.clone()], &b[part.clone()], *hz, DVec3::Y)
+            };
+            let [own_lag, own_gain] = of(&trace.sent, &truth.mean);
+            lag = lag.max(own_lag.abs());
+            gain = gain.max((own_gain - 1.0).abs());
+            floor[0] = floor[0].max(truth.floor(|a, b| of(a, b)[0].abs()));
+            floor[1] = floor[1].max(truth.floor(|a, b| (of(a, b)[1] - 1.0).abs()));
+        }
+    }
+    let mark = |m: Measure, floor, goal| bench.mark(m, &felt, Some(floor), Some(goal));
+    Ok(vec![
+        mark(Measure::zero("lag_s", "s", lag, 1.0).goal(5e-3), floor[0], 2e-3),
+        mark(Measure::zero("gain_error", "1", gain, 1.0).goal(0.1), floor[1], 0.04),
+    ])
+}
