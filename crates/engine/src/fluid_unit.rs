@@ -5,9 +5,9 @@ use crate::shared::Shared;
 use crate::tool_lane::{FrameTime, ToolLane};
 use hapflow_fluid::{
     BodyDrive, BodyLoad, BodyMotion, BodySample, FluidBackend, FluidConfig, FrameInput, FrameOutput,
-    ParticleView,
+    ParticleView, Surroundings,
 };
-use hapflow_haptics::{FaultSet, Wrench};
+use hapflow_haptics::{FaultSet, Neighbourhood, Wrench};
 use hapflow_realtime::{LatestWriter, SharedFlags};
 use std::sync::Arc;
 
@@ -55,6 +55,8 @@ pub struct FluidUnit {
     pub(crate) config: FluidConfig,
     pub(crate) frame_s: f64,
     pub(crate) newest: FluidReport,
+    /// What is round a tool whose coupling looks.
+    pub(crate) around: Surroundings,
 }
 
 impl std::fmt::Debug for FluidUnit {
@@ -90,21 +92,29 @@ impl FluidUnit {
                 None => std::thread::yield_now(),
             }
         };
-        for ((lane, config), (load, end)) in
-            self.tools.iter_mut().zip(tools).zip(output.loads.iter().zip(&output.bodies))
-        {
-            let sound = lane.end_frame(config, *load, *end, frame);
-            self.flags.raise(FaultSet::FLUID_FAULT.when(!sound).bits());
-        }
-        for (to, (state, load)) in
-            self.bodies.buffer().iter_mut().zip(output.bodies.iter().zip(&output.loads))
-        {
+        let now = self.bodies.buffer();
+        for (to, (state, load)) in now.iter_mut().zip(output.bodies.iter().zip(&output.loads)) {
             *to = BodyReport { state: *state, load: *load };
         }
-        self.bodies.publish();
         self.newest = report(&self.newest, output);
+        self.answer(frame);
+        self.bodies.publish();
         self.report.write(self.newest);
         self.shared.answer_snapshot(&mut *self.backend);
+    }
+
+    /// Makes the local models of a frame that was stepped.
+    fn answer(&mut self, frame: FrameTime) {
+        let density = self.config.settings.rest_density;
+        for (k, (lane, config)) in self.tools.iter_mut().zip(&self.config.world.bodies).enumerate() {
+            let body = self.bodies.buffer()[k];
+            let around = lane.looks(config).map(|reach| {
+                self.backend.surroundings(body.state.position, reach, &mut self.around);
+                neighbourhood(&self.around, density)
+            });
+            let sound = lane.end_frame(config, body, around, frame);
+            self.flags.raise(FaultSet::FLUID_FAULT.when(!sound).bits());
+        }
     }
 
     /// Hands the computed frame's models to the servo, at `now_s` on its clock.
@@ -131,6 +141,11 @@ impl FluidUnit {
             Err(_) => self.newest.degraded += 1,
         }
     }
+}
+
+fn neighbourhood(around: &Surroundings, density: f64) -> Neighbourhood<'_> {
+    let (origin, spacing) = (around.origin, around.spacing);
+    Neighbourhood { density, origin, spacing, side: Surroundings::SIDE, nodes: around.nodes() }
 }
 
 fn report(last: &FluidReport, output: &FrameOutput) -> FluidReport {

@@ -15,6 +15,7 @@ use crate::{SceneError, Value};
 use hapflow_devices::HapticDevice;
 use hapflow_fluid::{
     AnalyticJet, BodyConfig, BodyLoad, BodySample, CpuBackend, FluidBackend, FluidConfig, ParticleView,
+    Surroundings,
 };
 use hapflow_haptics::{Filter, LocalModel, Rendering, SafetyGate, ToolState, Touching};
 use hapflow_realtime::{
@@ -159,6 +160,7 @@ impl Session {
             config,
             frame_s: 1.0 / scene.run.fluid_hz,
             newest: FluidReport::default(),
+            around: Surroundings::default(),
         };
         let (fluid, mover, owned) = (Some(fluid), Some(mover), Owned::default());
         let obstacles = scene.obstacles.len();

@@ -1,9 +1,13 @@
 //! One tool's half on the fluid's side: its path in, its body's motion, its local model out.
 
+use crate::BodyReport;
 use crate::servo::PathSample;
 use glam::DVec3;
-use hapflow_fluid::{BodyConfig, BodyDrive, BodyLoad, BodyMotion, BodySample};
-use hapflow_haptics::{BodyState, Coupling, Drive, Forecast, LocalModel, ToolState, Wrench};
+use hapflow_fluid::{BodyConfig, BodyDrive, BodyMotion, BodySample};
+use hapflow_haptics::{
+    Answer, BodyState, Coupling, Drive, Forecast, FrameEnd, Law, LocalModel, Neighbourhood, Rendering,
+    ToolState, Wrench,
+};
 use hapflow_realtime::{LatestWriter, RingConsumer};
 
 /// Samples of a path that a frame takes; more are passed over.
@@ -24,13 +28,14 @@ pub(crate) struct ToolLane {
     /// Where the last frame's path ended.
     path_end: BodySample,
     forecast: Forecast,
+    /// The way of the frame, for the coupling.
+    path_taken: Vec<ToolState>,
     /// Time from the end of a frame until its model is handed over, s, over the last frames.
     delay_s: f64,
 }
 
-/// Frames by which the blended mean of a frame is late when its model is handed over at once: half of the frame that it is
-/// the mean of, and the one over which it is blended in.
-const OWN_DELAY: f64 = 1.5;
+/// What leaves at a tick acts until the next, so in the mean half a tick later, s.
+const TICK_DELAY_S: f64 = 0.5e-3;
 /// Share of the newest frame in the mean delay.
 const NEWEST: f64 = 0.2;
 /// Points of a path that is carried on.
@@ -67,6 +72,7 @@ impl ToolLane {
             last: PathSample { time_s: 0.0, tool: ToolState::at(position) },
             path_end: BodySample::at(position),
             forecast: Forecast::new(ToolState::at(position)),
+            path_taken: Vec::with_capacity(MOST_SAMPLES + 2),
             delay_s: 0.0,
         }
     }
@@ -86,27 +92,49 @@ impl ToolLane {
         BodyMotion { drive: self.drive, path: &self.samples }
     }
 
+    /// How far round the tool its coupling looks at the fluid, m.
+    pub fn looks(&self, config: &BodyConfig) -> Option<f64> {
+        self.coupling.looks(config.shape.bounding_radius())
+    }
+
+    /// Where the fluid's answer of this frame will be felt.
+    fn felt_at(&self, frame: FrameTime) -> ToolState {
+        self.forecast.at(frame.end_s + self.delay_s + 0.5 * frame.length_s)
+    }
+
     /// Makes the frame's local model, to wait for [`publish`](Self::publish). False if the force was not finite; it
     /// is zero then.
     pub fn end_frame(
         &mut self,
         config: &BodyConfig,
-        load: BodyLoad,
-        end: BodySample,
+        BodyReport { state: end, load }: BodyReport,
+        around: Option<Neighbourhood<'_>>,
         frame: FrameTime,
     ) -> bool {
         self.body = end;
-        let load = Wrench { force: load.force(), torque: load.torque };
-        let wrench = self.coupling.end_frame(&self.body_state(config), load, frame.length_s);
+        self.path_taken.clear();
+        self.path_taken.extend(self.samples.iter().map(tool_of));
+        let end_of_frame = FrameEnd {
+            body: self.body_state(config),
+            load: Wrench { force: load.force(), torque: load.torque },
+            frame_s: frame.length_s,
+            radius: config.shape.bounding_radius(),
+            path: &self.path_taken,
+            felt_at: self.felt_at(frame),
+            around,
+        };
+        let Answer { wrench, law } = self.coupling.end_frame(&end_of_frame);
+        let sound = wrench.is_finite() && law.is_finite();
         self.pending = Some(LocalModel {
             frame: frame.number,
             path_end_s: frame.end_s + self.lead_s(frame),
             published_s: frame.end_s,
             frame_s: frame.length_s,
-            wrench: if wrench.is_finite() { wrench } else { Wrench::ZERO },
+            wrench: if sound { wrench } else { Wrench::ZERO },
+            law: if sound { law } else { Law::default() },
             body: end.position,
         });
-        wrench.is_finite()
+        sound
     }
 
     /// Hands the waiting model to the servo, at `now_s` on its clock.
@@ -156,7 +184,11 @@ impl ToolLane {
 
     /// How far ahead of the frame's end the path ends, s.
     fn lead_s(&self, frame: FrameTime) -> f64 {
-        if self.coupling.leads() { self.delay_s + OWN_DELAY * frame.length_s } else { 0.0 }
+        if !self.coupling.leads() {
+            return 0.0;
+        }
+        // The frame's mean is late by half of the frame, and blended in.
+        self.delay_s + 0.5 * frame.length_s + Rendering::blend_s(frame.length_s) + TICK_DELAY_S
     }
 
     /// Puts a smooth way from where the last frame's path ended to where the tool will be when this frame is felt in the
@@ -193,6 +225,16 @@ impl ToolLane {
         let ahead = (time_s - self.last.time_s).clamp(0.0, 2.0 * frame.length_s);
         let tool = self.last.tool;
         ToolState { position: tool.position + tool.velocity * ahead, ..tool }
+    }
+}
+
+fn tool_of(sample: &BodySample) -> ToolState {
+    ToolState {
+        position: sample.position,
+        orientation: sample.orientation,
+        velocity: sample.velocity,
+        angular_velocity: sample.angular_velocity,
+        buttons: 0,
     }
 }
 

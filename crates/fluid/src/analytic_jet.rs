@@ -7,7 +7,7 @@
 
 use crate::backend::{FluidBackend, FluidError, FrameInput, FrameOutput, ParticleView};
 use crate::body::{Body, BodyLoad, Medium};
-use crate::{FluidConfig, Source};
+use crate::{FluidConfig, Source, Surroundings};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -34,6 +34,23 @@ pub fn jet_force(
     let offset = (from_outlet - along * axis).length();
     let relative = (speed - velocity.dot(axis)).max(0.0);
     axis * (density * covered(jet_radius, radius, offset) * relative * relative)
+}
+
+/// Puts `source`'s jet into `out`, its rim as wide as the nodes are apart.
+fn pour(source: &Source, gravity: DVec3, out: &mut Surroundings) {
+    let axis = source.direction.normalize_or(DVec3::NEG_Y);
+    for k in 0..out.nodes().len() {
+        let from_outlet = out.place(k) - source.position;
+        let along = from_outlet.dot(axis);
+        let speed = (source.speed * source.speed + 2.0 * gravity.dot(axis) * along).max(0.0).sqrt();
+        if along > 0.0 && speed > 0.0 {
+            let offset = (from_outlet - along * axis).length();
+            let fill = ((source.flow() / speed / PI).sqrt() - offset) / out.spacing + 0.5;
+            if fill > 0.0 {
+                out.set(k, fill.min(1.0), axis * speed);
+            }
+        }
+    }
 }
 
 /// Area (m²) of a disc of radius `a` that one of radius `b` covers at distance `d` between centres.
@@ -153,6 +170,14 @@ impl FluidBackend for AnalyticJet {
 
     fn snapshot(&mut self, view: &mut ParticleView) {
         *view = ParticleView::default();
+    }
+
+    fn surroundings(&mut self, around: DVec3, reach: f64, out: &mut Surroundings) {
+        out.lay(around, reach);
+        let running = self.config.world.sources.iter().filter(|source| source.runs_at(self.time));
+        for source in running {
+            pour(source, self.config.settings.gravity, out);
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The one interface to a fluid, whoever computes it.
 
-use crate::{BodyLoad, BodyMotion, BodyState, FluidConfig};
+use crate::{BodyLoad, BodyMotion, BodyState, FluidConfig, Surroundings};
 use glam::DVec3;
 
 /// What a backend refuses, and why.
@@ -128,4 +128,8 @@ pub trait FluidBackend: Send {
 
     /// Copies the particles out, for drawing: never on the step's path.
     fn snapshot(&mut self, view: &mut ParticleView);
+
+    /// Fills `out` with the fluid within `reach` metres of `around` along each axis, after a frame: for couplings that look
+    /// at it, and at no cost for others.
+    fn surroundings(&mut self, around: DVec3, reach: f64, out: &mut Surroundings);
 }

@@ -116,6 +116,11 @@ impl FluidBackend for CpuBackend {
     fn snapshot(&mut self, view: &mut ParticleView) {
         self.fluid.snapshot(&self.config, view);
     }
+
+    fn surroundings(&mut self, around: DVec3, reach: f64, out: &mut crate::Surroundings) {
+        out.lay(around, reach);
+        out.take(&self.fluid.particles, self.config.settings.spacing.powi(3));
+    }
 }
 
 /// The constants of the solver in use.

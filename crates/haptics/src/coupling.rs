@@ -4,7 +4,8 @@
 //! ([`Coupling::begin_frame`]) and makes a [`LocalModel`](crate::LocalModel) of what came of it ([`Coupling::end_frame`]).
 //! At every servo tick a [`Rendering`](crate::Rendering) makes a force of it at the hand's newest position.
 
-use crate::{ToolState, Wrench};
+use crate::local::Local;
+use crate::{Law, Neighbourhood, ToolState, Wrench};
 use glam::DVec3;
 
 /// The couplings there are.
@@ -43,7 +44,7 @@ impl CouplingKind {
         match self {
             Self::Direct => Box::new(Direct),
             Self::Momentum => Box::new(Momentum::default()),
-            Self::Local => Box::new(Local),
+            Self::Local => Box::new(Local::default()),
         }
     }
 }
@@ -73,6 +74,41 @@ pub enum Drive {
     },
 }
 
+/// A frame that has been stepped.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameEnd<'a> {
+    /// The body at its end.
+    pub body: BodyState,
+    /// Mean load of the fluid on it.
+    pub load: Wrench,
+    /// Its length, s.
+    pub frame_s: f64,
+    /// Radius of the ball round the tool, m.
+    pub radius: f64,
+    /// The way that the tool was led in it.
+    pub path: &'a [ToolState],
+    /// Where the hand is expected in the middle of the time in which this frame is felt.
+    pub felt_at: ToolState,
+    /// The fluid round the tool, if the coupling looks at it.
+    pub around: Option<Neighbourhood<'a>>,
+}
+
+/// What of a frame is for the hand.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Answer {
+    /// What does not depend on where the tool is.
+    pub wrench: Wrench,
+    /// The force that does.
+    pub law: Law,
+}
+
+impl Answer {
+    /// A wrench wherever the tool is.
+    fn constant(wrench: Wrench) -> Self {
+        Self { wrench, law: Law::default() }
+    }
+}
+
 /// The fluid-side half of a coupling. Thread: fluid.
 pub trait Coupling: Send {
     /// Whether the tool's path is carried on to where the hand will be when the frame's answer is felt.
@@ -83,8 +119,13 @@ pub trait Coupling: Send {
     /// How the body moves in the frame of `frame_s` seconds whose tool path ends at `device`.
     fn begin_frame(&mut self, body: &BodyState, device: &ToolState, frame_s: f64) -> Drive;
 
-    /// The wrench for the hand, of the frame's mean `load` and the `body` at its end.
-    fn end_frame(&mut self, body: &BodyState, load: Wrench, frame_s: f64) -> Wrench;
+    /// How far round a tool of `radius` metres it looks at the fluid, m; none if it does not.
+    fn looks(&self, _radius: f64) -> Option<f64> {
+        None
+    }
+
+    /// What of the frame is for the hand.
+    fn end_frame(&mut self, frame: &FrameEnd<'_>) -> Answer;
 }
 
 /// See [`CouplingKind::Direct`].
@@ -96,8 +137,8 @@ impl Coupling for Direct {
         Drive::Led
     }
 
-    fn end_frame(&mut self, _: &BodyState, load: Wrench, _: f64) -> Wrench {
-        load
+    fn end_frame(&mut self, frame: &FrameEnd<'_>) -> Answer {
+        Answer::constant(frame.load)
     }
 }
 
@@ -116,27 +157,10 @@ impl Coupling for Momentum {
         Drive::Driven { velocity: self.after_drive }
     }
 
-    fn end_frame(&mut self, body: &BodyState, load: Wrench, frame_s: f64) -> Wrench {
-        let force = body.mass * (body.velocity - self.after_drive) / frame_s;
-        Wrench { force, torque: load.torque * body.collision_response }
-    }
-}
-
-/// See [`CouplingKind::Local`].
-#[derive(Debug)]
-struct Local;
-
-impl Coupling for Local {
-    fn leads(&self) -> bool {
-        true
-    }
-
-    fn begin_frame(&mut self, _: &BodyState, _: &ToolState, _: f64) -> Drive {
-        Drive::Led
-    }
-
-    fn end_frame(&mut self, _: &BodyState, load: Wrench, _: f64) -> Wrench {
-        load
+    fn end_frame(&mut self, frame: &FrameEnd<'_>) -> Answer {
+        let body = &frame.body;
+        let force = body.mass * (body.velocity - self.after_drive) / frame.frame_s;
+        Answer::constant(Wrench { force, torque: frame.load.torque * body.collision_response })
     }
 }
 
@@ -161,10 +185,15 @@ mod tests {
         let mut coupling = CouplingKind::Momentum.build();
         let Drive::Driven { velocity } = coupling.begin_frame(&BODY, &device, dt) else { panic!() };
         let undisturbed = BodyState { velocity, ..BODY };
-        assert_eq!(coupling.end_frame(&undisturbed, Wrench::ZERO, dt).force, DVec3::ZERO);
+        let mut felt = |body| {
+            let felt_at = ToolState::default();
+            let load = Wrench::ZERO;
+            let frame = FrameEnd { body, load, frame_s: dt, radius: 0.01, path: &[], felt_at, around: None };
+            coupling.end_frame(&frame).wrench.force
+        };
+        assert_eq!(felt(undisturbed), DVec3::ZERO);
         let pushed = BodyState { velocity: velocity - DVec3::Y * 0.1, ..BODY };
-        let felt = coupling.end_frame(&pushed, Wrench::ZERO, dt).force;
-        assert!((felt - DVec3::new(0.0, -0.2 * 0.1 / 0.02, 0.0)).length() < 1e-12);
+        assert!((felt(pushed) - DVec3::new(0.0, -0.2 * 0.1 / 0.02, 0.0)).length() < 1e-12);
     }
 
     #[test]

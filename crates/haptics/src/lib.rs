@@ -21,8 +21,12 @@ mod forecast;
 mod gate;
 mod gate_settings;
 mod gated_wrench;
+mod impact;
+mod law;
+mod local;
 mod local_model;
 mod mapping;
+mod neighbourhood;
 mod proxy;
 mod range;
 mod rendering;
@@ -32,7 +36,7 @@ mod types;
 mod velocity;
 
 pub use axes::{Axes, AxesError};
-pub use coupling::{BodyState, Coupling, CouplingKind, Drive};
+pub use coupling::{Answer, BodyState, Coupling, CouplingKind, Drive, FrameEnd};
 pub use fault::FaultSet;
 pub use filter::{
     DEFAULT_BUTTERWORTH_ORDER, DEFAULT_SERVO_RATE_HZ, Filter, FilterError, FilterSpec, MAX_BUTTERWORTH_ORDER,
@@ -42,8 +46,10 @@ pub use forecast::Forecast;
 pub use gate::{MAX_TICK_S, ModelAge, SafetyGate};
 pub use gate_settings::GateSettings;
 pub use gated_wrench::GatedWrench;
+pub use law::{Law, LawNode};
 pub use local_model::LocalModel;
 pub use mapping::Mapping;
+pub use neighbourhood::{Neighbourhood, Parcel};
 pub use proxy::{Contact, MAX_CONTACTS, Proxy, SolidFeel, Touching};
 pub use range::{RangeError, check_range};
 pub use rendering::Rendering;

@@ -1,6 +1,6 @@
 //! What the servo gets of one fluid frame.
 
-use crate::{ToolState, Wrench};
+use crate::{Law, ToolState, Wrench};
 use glam::DVec3;
 
 /// Everything of one fluid frame that the servo needs to make a force by itself.
@@ -14,15 +14,17 @@ pub struct LocalModel {
     pub published_s: f64,
     /// Length of a frame, s.
     pub frame_s: f64,
-    /// The force and torque of that frame, scene frame.
+    /// The force and torque of that frame, scene frame, less the law's.
     pub wrench: Wrench,
+    /// The force that depends on where the tool is.
+    pub law: Law,
     /// Where the tool's body was at its end, m.
     pub body: DVec3,
 }
 
 impl LocalModel {
     /// The wrench on a tool in this state. Thread: servo.
-    pub fn evaluate(&self, _tool: &ToolState) -> Wrench {
-        self.wrench
+    pub fn evaluate(&self, tool: &ToolState) -> Wrench {
+        self.wrench + Wrench::from_force(self.law.at(tool))
     }
 }

@@ -1,39 +1,61 @@
 //! The servo's half of a coupling: from local models to one force without steps.
 
-use crate::{CouplingKind, LocalModel, ToolState, Wrench};
+use crate::{CouplingKind, Forecast, LocalModel, ToolState, Wrench};
+
+/// Shortest time over which a new model is blended in, s: a fast fluid is the mean over little time, and noisy.
+const BLEND_S: f64 = 1.0 / 60.0;
+/// What leaves at a tick acts until the next: in the mean half a tick later, s.
+const AHEAD_S: f64 = 0.5e-3;
 
 /// Makes the wrench of each tick from the newest local model. Thread: servo; no allocation, no lock.
 ///
-/// Where the coupling blends, what a new model changes at once is taken off again and given back over one fluid frame, so
-/// that the force has no step, however late or early or different the model is.
+/// Where the coupling blends, what a new model changes at once is taken off again and given back over one fluid frame (or a
+/// sixtieth of a second, if that is longer), so that the force has no step, however late or early or different the model is.
 #[derive(Clone, Debug)]
 pub struct Rendering {
-    blends: bool,
-    /// What the last model gave beyond the newest, when that came.
+    /// Where the hand is, if the coupling looks at it that closely.
+    hand: Option<Forecast>,
+    /// The model of the last tick.
+    model: LocalModel,
+    /// What the models before gave beyond it, when it came.
     step: Wrench,
-    /// What left at the last tick.
-    last: Wrench,
 }
 
 impl Rendering {
     /// The servo's half of a coupling of this kind.
     pub fn new(kind: CouplingKind) -> Self {
-        Self { blends: kind == CouplingKind::Local, step: Wrench::ZERO, last: Wrench::ZERO }
+        let hand = (kind == CouplingKind::Local).then(|| Forecast::new(ToolState::default()));
+        Self { hand, model: LocalModel::default(), step: Wrench::ZERO }
+    }
+
+    /// Time over which the model of a frame of `frame_s` seconds is blended in, s. That is also by how much what is blended
+    /// comes late.
+    pub fn blend_s(frame_s: f64) -> f64 {
+        frame_s.max(BLEND_S)
     }
 
     /// The wrench on a tool in this state at `time_s`; `fresh` says that `model` is new at this tick.
     pub fn tick(&mut self, model: &LocalModel, fresh: bool, tool: &ToolState, time_s: f64) -> Wrench {
-        let now = model.evaluate(tool);
-        if !self.blends {
-            return now;
+        let Some(hand) = &mut self.hand else { return model.evaluate(tool) };
+        hand.take(time_s, tool);
+        let tool = hand.at(time_s + AHEAD_S);
+        if fresh {
+            self.take(model, &tool, time_s);
         }
-        if fresh && model.frame > 1 {
-            self.step = self.last - now;
-        }
-        let share = (time_s - model.published_s) / model.frame_s;
+        self.model.evaluate(&tool) + self.step * self.left(time_s)
+    }
+
+    /// Goes over to `model` without a step.
+    fn take(&mut self, model: &LocalModel, tool: &ToolState, time_s: f64) {
+        let before = self.model.evaluate(tool) + self.step * self.left(time_s);
+        self.step = if self.model.frame == 0 { Wrench::ZERO } else { before - model.evaluate(tool) };
+        self.model = *model;
+    }
+
+    /// Share of the step that is left.
+    fn left(&self, time_s: f64) -> f64 {
+        let share = (time_s + AHEAD_S - self.model.published_s) / Self::blend_s(self.model.frame_s);
         // An age that is no number leaves nothing over.
-        let left = if share < 1.0 { 1.0 - share.max(0.0) } else { 0.0 };
-        self.last = now + self.step * left;
-        self.last
+        if share < 1.0 { 1.0 - share.max(0.0) } else { 0.0 }
     }
 }

@@ -8,8 +8,9 @@ use crate::{Case, Measure, Setup, ValidationError};
 use glam::DVec3;
 use hapflow_devices::Segment;
 
-/// Frequencies (Hz) and amplitudes (m) of the swings; each lasts a second.
-const SWINGS: [[f64; 2]; 3] = [[1.0, 0.008], [2.0, 0.005], [3.0, 0.004]];
+/// Frequency (Hz), amplitude (m), duration (s) and its last part that is looked at (s, whole periods): what was before a
+/// swing is still felt in its first part by who feels it late.
+const SWINGS: [[f64; 4]; 3] = [[1.0, 0.008, 1.5, 1.0], [2.0, 0.005, 1.0, 0.5], [3.0, 0.004, 1.0, 2.0 / 3.0]];
 
 pub(super) const CASE: Case = Case {
     name: "felt-lag",
@@ -43,20 +44,21 @@ fn swung(bench: &mut Bench<'_>, way: &Way) -> Result<Vec<Measure>, ValidationErr
     let aside = DVec3::X * bench.setup.number("offset");
     let (mut lag, mut gain, mut floor) = (0.0_f64, 0.0_f64, [0.0_f64; 2]);
     for (place, along) in [(DVec3::ZERO, DVec3::Y), (aside, DVec3::X)] {
-        let swing = |[hz, size]: &[f64; 2]| Segment::Sine {
-            amplitude: along * *size,
-            frequency_hz: *hz,
-            duration_s: 1.0,
-        };
-        let scene = jet::scripted(&felt, place, &SWINGS.map(|s| swing(&s)), 0.0);
+        let segments = SWINGS.map(|[frequency_hz, size, duration_s, _]| Segment::Sine {
+            amplitude: along * size,
+            frequency_hz,
+            duration_s,
+        });
+        let scene = jet::scripted(&felt, place, &segments, 0.0);
         let trace = bench.run(&scene)?;
         let truth = bench.truth_of(&trace)?;
-        for (k, [hz, _]) in SWINGS.iter().enumerate() {
-            let begin = (1e3 * WARM_UP) as usize + 1000 * k;
-            let part = begin..begin + 1000;
+        let mut end = WARM_UP;
+        for [hz, _, duration, part] in SWINGS {
+            end += duration;
+            let part = (1e3 * (end - part)) as usize..(1e3 * end) as usize;
             // The jet's force stays along it, whichever way the hand goes.
             let of = |a: &[DVec3], b: &[DVec3]| {
-                figures::lag_and_gain(&a[part.clone()], &b[part.clone()], *hz, DVec3::Y)
+                figures::lag_and_gain(&a[part.clone()], &b[part.clone()], hz, DVec3::Y)
             };
             let [own_lag, own_gain] = of(&trace.sent, &truth.mean);
             lag = lag.max(own_lag.abs());
