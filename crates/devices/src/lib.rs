@@ -13,6 +13,7 @@
 mod at_end;
 mod device;
 mod error;
+pub mod falcon;
 mod hand;
 mod hand_settings;
 mod info;
