@@ -43,6 +43,9 @@ pub enum Command {
     Validate(ValidateArgs),
     /// Shake random scenes by all means, and say what does not hold: all finite, nobody lost, speed, energy and force bounded.
     Stress(StressArgs),
+    /// The Novint Falcon: its mathematics on files.
+    #[command(subcommand)]
+    Falcon(FalconCommand),
     /// Check this machine and say what to do: cores, SIMD, real-time rights, timer, USB, output.
     Doctor(DoctorArgs),
 }
@@ -156,6 +159,48 @@ pub struct StressArgs {
     /// Print one line of JSON for each trial (trial, seed, pass, reason, repeat) instead of those that fail.
     #[arg(long)]
     pub json: bool,
+}
+
+/// The words after `falcon`. Those on files print CSV and nothing else: the file's columns, and those that are added.
+#[derive(Debug, Subcommand)]
+pub enum FalconCommand {
+    /// Encoder counts to places: reads enc0_counts, enc1_counts, enc2_counts; adds x_m, y_m, z_m.
+    Fk(KinematicsArgs),
+    /// Forces to motor counts: reads x_m, y_m, z_m, fx_N, fy_N, fz_N; adds motor0_counts to 2 (within 4095 either way, all
+    /// scaled alike) and tau0_Nm to 2 (the torques that this force needs).
+    Force(KinematicsArgs),
+    /// Packets of the device to what they say: reads bytes_hex; adds accepted, enc0_counts to 2, homing_bits, button_bits.
+    Decode(FileArgs),
+    /// Packets for the device: reads motor0_counts to 2, led_mask (green 2, blue 4, red 8), homing; adds bytes_hex.
+    Encode(FileArgs),
+}
+
+/// A file.
+#[derive(Debug, Args)]
+pub struct FileArgs {
+    /// A CSV file with a header.
+    pub file: PathBuf,
+}
+
+/// A file, and the Falcon that it is about.
+#[derive(Debug, Args)]
+pub struct KinematicsArgs {
+    /// A CSV file with a header.
+    pub file: PathBuf,
+    /// The Falcon.
+    #[command(flatten)]
+    pub geometry: GeometryArgs,
+}
+
+/// A Falcon's lengths and strengths.
+#[derive(Debug, Args)]
+pub struct GeometryArgs {
+    /// Lengths and angles: libnifalcon, martin, or a parameter file.
+    #[arg(long, value_name = "NAME|FILE", default_value = "libnifalcon")]
+    pub geometry: String,
+    /// Motor counts a newton metre, in place of the geometry's own.
+    #[arg(long, value_name = "K", allow_negative_numbers = true)]
+    pub counts_per_nm: Option<f64>,
 }
 
 /// Arguments of `doctor`.

@@ -7,6 +7,7 @@
 mod cli;
 mod doctor;
 mod draw;
+mod falcon;
 mod list;
 mod meter;
 mod outputs;
@@ -38,6 +39,7 @@ fn dispatch(cli: cli::Cli) -> Result<ExitCode, run::Failure> {
         cli::Command::Run(args) => run::run(&args)?,
         cli::Command::Scenes(args) => list::scenes(args.settings),
         cli::Command::Devices => list::devices(),
+        cli::Command::Falcon(command) => falcon::falcon(&command)?,
         cli::Command::Validate(args) if validate::validate(&args)? => {}
         cli::Command::Validate(_) => return Ok(ExitCode::FAILURE),
         cli::Command::Stress(args) if stress::stress(&args)? => {}

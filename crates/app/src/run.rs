@@ -2,9 +2,11 @@
 
 use crate::cli::RunArgs;
 use crate::draw::error::DrawError;
+use crate::falcon::TableError;
 use crate::meter::Meter;
 use crate::outputs::{self, OutputError};
 use crate::summary::Summary;
+use hapflow_devices::falcon::GeometryError;
 use hapflow_engine::run::{Outcome, Progress, RunOptions, real_time, virtual_clock};
 use hapflow_engine::{Scene, SceneError, Value, load, settings};
 use hapflow_validation::ValidationError;
@@ -24,6 +26,15 @@ pub enum Failure {
     /// `--set` without `=`.
     #[error("--set {0}: write it as path.to.setting=VALUE, for example fluid.viscosity=0.1")]
     Set(String),
+    /// A word of another command with a value that cannot be used.
+    #[error("{0}")]
+    Word(String),
+    /// A parameter set of a Falcon that cannot be used.
+    #[error(transparent)]
+    Geometry(#[from] GeometryError),
+    /// A CSV file that cannot be used.
+    #[error(transparent)]
+    Table(#[from] TableError),
     /// A case that cannot be run.
     #[error(transparent)]
     Validation(#[from] ValidationError),
