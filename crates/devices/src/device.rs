@@ -2,6 +2,7 @@
 
 use crate::DeviceError;
 use hapflow_haptics::{GatedWrench, ToolState};
+use std::ops::ControlFlow;
 
 /// Who sets the pace of the servo.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +23,17 @@ pub trait HapticDevice: Send {
 
     /// Who sets the pace of the servo.
     fn pacing(&self) -> Pacing;
+
+    /// Brings the device to where it can be read and give force, with a person's help where it needs that: `tell` gets a
+    /// line for that person, again and again while there is something to do, and may break it off. Thread: main, before
+    /// the first read; may take as long as the person does. Most devices are ready at once.
+    ///
+    /// # Errors
+    /// [`DeviceError`] if it cannot be brought there, or was broken off.
+    fn prepare(&mut self, tell: &mut dyn FnMut(&str) -> ControlFlow<()>) -> Result<(), DeviceError> {
+        let _ = tell;
+        Ok(())
+    }
 
     /// Pose and motion at `time_s`, the session's time, s, which never goes back. Simulated devices move up
     /// to that time; real ones give their newest state.

@@ -1,5 +1,6 @@
 //! What a device cannot do, and what a person can do about it.
 
+use crate::falcon::FalconError;
 use crate::{MotionError, ScriptError};
 use hapflow_haptics::RangeError;
 
@@ -43,6 +44,9 @@ pub enum DeviceError {
     /// A setting outside its range.
     #[error("{0}: choose a value inside it")]
     Setting(#[from] RangeError),
+    /// A Falcon that cannot be used, or is lost.
+    #[error(transparent)]
+    Falcon(#[from] FalconError),
     /// A motion that cannot be followed.
     #[error(transparent)]
     Motion(#[from] MotionError),

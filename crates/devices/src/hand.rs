@@ -82,6 +82,11 @@ impl SimulatedHand {
         PathPoint { position: self.mass.position, velocity: self.mass.velocity }
     }
 
+    /// Takes a force that no gate has let out, N: for a hand at an emulated device, whose motors give it.
+    pub(crate) fn feel(&mut self, force: DVec3) {
+        self.force = force;
+    }
+
     /// Lives through the time up to `time_s`.
     fn advance_to(&mut self, time_s: f64) {
         if !time_s.is_finite() {

@@ -7,17 +7,31 @@
 //! | torques in motor counts | [`motor_counts`] |
 //! | packets | [`Command`], [`Reply`], picked from a [`ByteStream`] |
 //! | firmware image | [`Firmware`] |
+//! | USB, real or emulated | [`Transport`] |
+//! | a Falcon that is not there | [`EmulatedFalcon`] |
+//! | the device | [`Falcon`] |
 
+mod boot;
+mod driver;
+mod emulation;
+mod error;
+mod exchange;
 mod firmware;
 mod geometry;
 mod kinematics;
 mod motors;
 mod packet;
+mod serial;
 mod stream;
+mod transport;
 
+pub use driver::{Falcon, FalconOptions, FalconStats};
+pub use emulation::{EmulatedFalcon, EmulatedHand, EmulatedTransport, Trouble};
+pub use error::{FalconError, Stage, UDEV_RULE, UDEV_RULE_FILE};
 pub use firmware::{Firmware, FirmwareError};
 pub use geometry::{Geometry, GeometryError};
 pub use kinematics::{Kinematics, PoseError};
 pub use motors::{MAX_MOTOR_COUNTS, motor_counts, torques_of};
 pub use packet::{Command, Leds, PACKET_BYTES, Reply};
 pub use stream::ByteStream;
+pub use transport::{LinkError, Transport, USB_PACKET_BYTES};
