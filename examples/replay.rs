@@ -24,7 +24,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         set(&mut scene, path, value)?;
     }
     let mut go_on = |_: hapflow::engine::run::Progress<'_>| ControlFlow::Continue(());
-    let options = RunOptions { threads: 0, pictures_at: &[], record: None, progress: &mut go_on };
+    let options = RunOptions {
+        threads: 0,
+        pictures_at: &[],
+        record: None,
+        guide: &mut |_| ControlFlow::Continue(()),
+        progress: &mut go_on,
+    };
     println!("time_s,fx_N,fy_N,fz_N");
     for tick in virtual_clock(&scene, options)?.recording.rows {
         let force = tick.sent.force;

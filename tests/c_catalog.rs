@@ -157,7 +157,10 @@ fn the_build_says_what_it_has_even_before_the_version() {
     };
     assert_eq!((line("version"), line("abi")), (env!("CARGO_PKG_VERSION"), "1"));
     assert_eq!((line("solvers"), line("couplings")), ("wcsph dfsph muller", "direct momentum"));
-    assert_eq!((line("backends"), line("devices")), ("cpu analytic-jet", "null replay hand"));
+    assert_eq!(
+        (line("backends"), line("devices")),
+        ("cpu analytic-jet", "null replay hand falcon emulated-falcon")
+    );
     assert!(line("scenes").starts_with("tap ") && line("target").contains(std::env::consts::ARCH));
     assert!(!line("features").contains("test-hooks"));
     assert!(line("modes").contains("full") && line("tools").contains("disc"));

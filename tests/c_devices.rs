@@ -54,7 +54,13 @@ fn a_host_drives_the_simulated_hand_as_a_run_in_rust_does() {
     settings::set(&mut scene, "run.backend", &Value::Text("analytic-jet".into())).unwrap();
     settings::set(&mut scene, "run.duration", &Value::Number(0.8)).unwrap();
     let mut progress = |_: hapflow::engine::run::Progress<'_>| ControlFlow::Continue(());
-    let options = RunOptions { threads: 1, pictures_at: &[], record: None, progress: &mut progress };
+    let options = RunOptions {
+        threads: 1,
+        pictures_at: &[],
+        record: None,
+        guide: &mut |_| ControlFlow::Continue(()),
+        progress: &mut progress,
+    };
     let rust = virtual_clock(&scene, options).unwrap().recording.rows;
     let c = tap_with_its_hand(&ready(), 800);
     assert_eq!(c.len(), rust.len());

@@ -576,7 +576,13 @@ fn the_run_is_that_of_the_virtual_clock_to_the_last_bit() {
         let session = api.try_create(scene).unwrap();
         let c = api.run(session, 0, 200);
         let mut progress = |_: hapflow::engine::run::Progress<'_>| ControlFlow::Continue(());
-        let options = RunOptions { threads: 1, pictures_at: &[], record: None, progress: &mut progress };
+        let options = RunOptions {
+            threads: 1,
+            pictures_at: &[],
+            record: None,
+            guide: &mut |_| ControlFlow::Continue(()),
+            progress: &mut progress,
+        };
         let rust = virtual_clock(&parse(scene, "toml").unwrap(), options).unwrap();
         let sent: Vec<_> = rust.recording.rows.iter().map(|r| r.sent.force.to_array()).collect();
         assert_eq!(c.iter().map(|w| w.force).collect::<Vec<_>>(), sent);

@@ -49,7 +49,13 @@ fn run(record: &Path) -> Vec<[f64; 4]> {
         settings::set(&mut scene, path, &Value::parse(value)).unwrap();
     }
     let mut go_on = |_: hapflow::engine::run::Progress<'_>| ControlFlow::Continue(());
-    let options = RunOptions { threads: 1, pictures_at: &[], record: Some(record), progress: &mut go_on };
+    let options = RunOptions {
+        threads: 1,
+        pictures_at: &[],
+        record: Some(record),
+        guide: &mut |_| ControlFlow::Continue(()),
+        progress: &mut go_on,
+    };
     let rows = virtual_clock(&scene, options).unwrap().recording.rows;
     rows.iter().map(|r| [r.time_s, r.sent.force.x, r.sent.force.y, r.sent.force.z]).collect()
 }

@@ -192,7 +192,13 @@ fn a_full_disc_is_told_at_the_end_and_harms_no_tick() {
 fn a_run_whose_file_is_full_ends_with_the_reason() {
     let mut progress = |_: hapflow::engine::run::Progress<'_>| ControlFlow::Continue(());
     let record = Some(Path::new("/dev/full"));
-    let options = RunOptions { threads: 1, pictures_at: &[], record, progress: &mut progress };
+    let options = RunOptions {
+        threads: 1,
+        pictures_at: &[],
+        record,
+        guide: &mut |_| ControlFlow::Continue(()),
+        progress: &mut progress,
+    };
     let told = virtual_clock(&quick(), options).unwrap_err().to_string();
     assert!(told.starts_with("/dev/full: No space left on device"), "{told}");
 }
@@ -201,8 +207,13 @@ fn a_run_whose_file_is_full_ends_with_the_reason() {
 fn a_whole_run_is_written_as_it_goes_and_as_at_its_end() {
     let (streamed, whole) = (file("streamed.csv"), file("whole.csv"));
     let mut progress = |_: hapflow::engine::run::Progress<'_>| ControlFlow::Continue(());
-    let options =
-        RunOptions { threads: 1, pictures_at: &[], record: Some(&streamed), progress: &mut progress };
+    let options = RunOptions {
+        threads: 1,
+        pictures_at: &[],
+        record: Some(&streamed),
+        guide: &mut |_| ControlFlow::Continue(()),
+        progress: &mut progress,
+    };
     let outcome = virtual_clock(&quick(), options).unwrap();
     outcome.recording.write_csv(&whole).unwrap();
     assert_eq!(std::fs::read(&streamed).unwrap(), std::fs::read(&whole).unwrap());

@@ -8,6 +8,8 @@ use glam::DVec3;
 use hapflow::devices::{DeviceError, HapticDevice, NullDevice, Pacing};
 use hapflow::engine::{Drive, FluidUnit, Scene, SceneError, ServoUnit, Session, SessionOptions, Value};
 use hapflow::haptics::{FaultSet, GatedWrench, ToolState};
+use hapflow::realtime::VirtualClock;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// A session in a steady closed-form jet, with its halves.
@@ -235,4 +237,53 @@ fn a_lost_device_or_a_panic_ends_the_servo_with_a_fault() {
 fn an_owned_servo_needs_a_device() {
     let options = SessionOptions { servo_drive: Drive::Owned, ..SessionOptions::hosted() };
     assert!(Session::open(&jet(&[]), options).is_err());
+}
+
+/// A device that takes 1.7 ms for each state.
+struct Slow {
+    clock: Arc<VirtualClock>,
+    reads: u32,
+}
+
+impl HapticDevice for Slow {
+    fn name(&self) -> &str {
+        "slow"
+    }
+    fn pacing(&self) -> Pacing {
+        Pacing::Device
+    }
+    fn read(&mut self, _: f64) -> Result<ToolState, DeviceError> {
+        self.clock.advance_ns(1_700_000);
+        self.reads += 1;
+        if self.reads <= 50 { Ok(ToolState::default()) } else { Err(DeviceError::Closed { device: "slow" }) }
+    }
+    fn write(&mut self, _: GatedWrench, _: f64) -> Result<(), DeviceError> {
+        Ok(())
+    }
+    fn close(&mut self) {}
+}
+
+/// No timer runs beside it, and the ticks have the times at which its states came.
+#[test]
+fn a_device_that_paces_sets_the_ticks() {
+    let clock = Arc::new(VirtualClock::new());
+    let options = SessionOptions {
+        servo_drive: Drive::Owned,
+        devices: vec![Box::new(Slow { clock: Arc::clone(&clock), reads: 0 })],
+        clock,
+        tape: 64,
+        ..SessionOptions::hosted()
+    };
+    let mut session = Session::open(&jet(&[("run.backend", word("analytic-jet"))]), options).unwrap();
+    let mut tape = session.take_tape(0).unwrap();
+    while session.servo_runs() {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let times: Vec<_> = std::iter::from_fn(|| tape.pop()).map(|report| report.time_s).collect();
+    assert_eq!(times.len(), 50);
+    for (n, time) in times.into_iter().enumerate() {
+        assert!((time - 1.7e-3 * (n + 1) as f64).abs() < 1e-9, "tick {n} at {time}");
+    }
+    session.close();
+    assert_eq!(session.take_lost(), Some(DeviceError::Closed { device: "slow" }));
 }

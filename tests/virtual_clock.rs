@@ -10,8 +10,17 @@ use std::ops::ControlFlow;
 
 fn run(scene: &Scene, threads: usize) -> Outcome {
     let mut progress = |_: hapflow::engine::run::Progress<'_>| ControlFlow::Continue(());
-    virtual_clock(scene, RunOptions { threads, pictures_at: &[0.25], record: None, progress: &mut progress })
-        .unwrap()
+    virtual_clock(
+        scene,
+        RunOptions {
+            threads,
+            pictures_at: &[0.25],
+            record: None,
+            guide: &mut |_| ControlFlow::Continue(()),
+            progress: &mut progress,
+        },
+    )
+    .unwrap()
 }
 
 #[test]

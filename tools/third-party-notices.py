@@ -31,6 +31,16 @@ TAKEN = {
 }
 LICENCE_FILE = re.compile(r"(?i)^(un)?(licen[cs]e|copying|copyright|notice)")
 # Not the "Copyright [yyyy] [name of copyright owner]" that the Apache licence prints as a pattern.
+# Libraries in C whose source a crate carries and builds in: name, licence file in the crate, terms.
+BUNDLED = {
+    "libusb1-sys": (
+        "libusb",
+        "libusb/COPYING",
+        "LGPL-2.1-or-later, Copyright 2001-2024 its authors, <https://libusb.info>; unchanged. Its source comes with the"
+        " crate libusb1-sys; with hapflow's own source, which is public, a program with another libusb can be built."
+        " `cargo build --no-default-features -p hapflow-app` leaves it out",
+    ),
+}
 COPYRIGHT = re.compile(r"copyright (\(c\)|©|\d{4})(?!.*\byyyy\b).*", re.IGNORECASE)
 
 
@@ -208,6 +218,10 @@ def main():
     for crate in crates:
         notices = {f: t for f, t in files(crate).items() if f.lower().startswith("notice")}
         printed_whole += [(f"{crate['name']} {crate['version']}: {f}", t) for f, t in notices.items()]
+    for crate in (c for c in crates if c["name"] in BUNDLED):
+        name, licence, terms = BUNDLED[crate["name"]]
+        text = (Path(crate["manifest_path"]).parent / licence).read_text()
+        parts += [f"## {name}, in C\n", f"Inside the program `hapflow`, and in `libhapflow` where it was built with the feature `falcon`: {terms}.\n", fence(text)]
     if printed_whole:
         parts.append("## Printed whole\n")
         parts += [f"### {title}\n\n{fence(text)}" for title, text in printed_whole]

@@ -25,6 +25,7 @@ Examples:
   hapflow run tap --set fluid.viscosity=0.1 --set source.tap.speed=2
   hapflow run tap --motion tremor             a recorded hand instead of the simulated one
   hapflow run my-scene.toml --realtime        your own scene, in real time
+  hapflow run tap --device auto               with the haptic device that is plugged in
   hapflow scenes --settings                   every setting with its unit, range and default
   hapflow validate jet-plate --set speed=2    the fluid's forces against their known answers
   hapflow stress --trials 2000                shake random scenes, and say what does not hold
@@ -37,13 +38,13 @@ pub enum Command {
     Run(Box<RunArgs>),
     /// List the shipped scenes, or all settings.
     Scenes(ScenesArgs),
-    /// List the devices that can move the tool.
-    Devices,
+    /// List the devices that can move the tool, and say which are there.
+    Devices(DevicesArgs),
     /// Run the fluid's cases with known answers, and say how far off it is and what it costs.
     Validate(ValidateArgs),
     /// Shake random scenes by all means, and say what does not hold: all finite, nobody lost, speed, energy and force bounded.
     Stress(StressArgs),
-    /// The Novint Falcon: its mathematics on files.
+    /// The Novint Falcon: find, load, home and test it, and its mathematics on files.
     #[command(subcommand)]
     Falcon(FalconCommand),
     /// Check this machine and say what to do: cores, SIMD, real-time rights, timer, USB, output.
@@ -65,6 +66,10 @@ pub struct RunArgs {
     /// Simulated seconds; the scene's own if left out.
     #[arg(long, value_name = "S")]
     pub duration: Option<f64>,
+    /// What moves the tool: hand, replay, null, falcon, emulated-falcon; auto takes the first real one that is there, else
+    /// the hand. A real device runs in real time.
+    #[arg(long, value_name = "NAME", conflicts_with = "motion")]
+    pub device: Option<String>,
     /// Replay a recorded motion instead of the scene's device: a CSV file (time_s,x_m,y_m,z_m) or a shipped name.
     #[arg(long, value_name = "FILE|NAME")]
     pub motion: Option<String>,
@@ -99,6 +104,14 @@ pub struct RunArgs {
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
     /// Print the summary as JSON and nothing else.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `devices`.
+#[derive(Debug, Args)]
+pub struct DevicesArgs {
+    /// Print a JSON array instead.
     #[arg(long)]
     pub json: bool,
 }
@@ -164,6 +177,45 @@ pub struct StressArgs {
 /// The words after `falcon`. Those on files print CSV and nothing else: the file's columns, and those that are added.
 #[derive(Debug, Subcommand)]
 pub enum FalconCommand {
+    /// Say which Falcons are plugged in, and what state the chosen one is in. Gives no force.
+    Info(FalconArgs),
+    /// Load a firmware image, after a check of its structure. The Falcon keeps it until it is unplugged.
+    Firmware {
+        /// The image, such as nvent_firmware.bin of libnifalcon.
+        file: PathBuf,
+        /// The Falcon.
+        #[command(flatten)]
+        falcon: FalconArgs,
+    },
+    /// Lead through homing.
+    Home(FalconArgs),
+    /// Home, then exchange without force for some seconds, and say how well that goes.
+    Test {
+        /// For how long, s.
+        #[arg(long, value_name = "S", default_value_t = 5.0)]
+        seconds: f64,
+        /// The Falcon.
+        #[command(flatten)]
+        falcon: FalconArgs,
+    },
+    /// Home, then take the arms' zero angles from a place at which the grip is held, and print the parameter file.
+    Calibrate {
+        /// Where the grip is held, in the Falcon's frame (origin: middle of the base's front, x right, y up, z towards the
+        /// user), m.
+        #[arg(
+            long,
+            value_name = "X,Y,Z",
+            value_delimiter = ',',
+            num_args = 3,
+            allow_negative_numbers = true
+        )]
+        at: Vec<f64>,
+        /// The Falcon.
+        #[command(flatten)]
+        falcon: FalconArgs,
+    },
+    /// Write the udev rule with which Linux lets its users have a Falcon (as root).
+    Udev,
     /// Encoder counts to places: reads enc0_counts, enc1_counts, enc2_counts; adds x_m, y_m, z_m.
     Fk(KinematicsArgs),
     /// Forces to motor counts: reads x_m, y_m, z_m, fx_N, fy_N, fz_N; adds motor0_counts to 2 (within 4095 either way, all
@@ -188,6 +240,23 @@ pub struct KinematicsArgs {
     /// A CSV file with a header.
     pub file: PathBuf,
     /// The Falcon.
+    #[command(flatten)]
+    pub geometry: GeometryArgs,
+}
+
+/// A Falcon.
+#[derive(Debug, Args)]
+pub struct FalconArgs {
+    /// Its serial number, where there are several.
+    #[arg(long, value_name = "TEXT")]
+    pub serial: Option<String>,
+    /// Firmware image to load if none runs.
+    #[arg(long, value_name = "FILE")]
+    pub load: Option<PathBuf>,
+    /// Take one that is emulated down to USB transfers, in a simulated hand.
+    #[arg(long)]
+    pub emulated: bool,
+    /// Its lengths and strengths.
     #[command(flatten)]
     pub geometry: GeometryArgs,
 }

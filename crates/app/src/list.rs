@@ -1,6 +1,7 @@
 //! `hapflow scenes` and `hapflow devices`.
 
 use crate::viscosity;
+use hapflow_devices::DeviceInfo;
 use hapflow_engine::settings::table as settings_table;
 use hapflow_engine::{load, shipped};
 use std::io::Write;
@@ -24,14 +25,42 @@ pub fn scenes(settings: bool) {
     say("\nRun one with `hapflow run NAME`, or a TOML file of your own with `hapflow run FILE`.");
 }
 
-/// Lists the devices.
-pub fn devices() {
-    for device in hapflow_devices::list() {
-        let hardware = if device.hardware { "hardware" } else { "simulated" };
-        say(&format!(
-            "{:<8} {hardware}, senses {} and drives {} degrees of freedom, up to {} N: {}",
-            device.name, device.sensed_dof, device.driven_dof, device.max_force_n, device.about
-        ));
+/// Lists the devices, those that are there and those that are not.
+pub fn devices(json: bool) {
+    let devices = hapflow_devices::list();
+    if json {
+        let all: Vec<_> = devices.iter().map(device_json).collect();
+        return say(&format!("{:#}", serde_json::Value::Array(all)));
     }
-    say("\nChoose one with `hapflow run --set run.device=NAME`; `--motion FILE` replays a recorded hand.");
+    for device in devices {
+        let there = device.presence();
+        say(&format!("{:<16} {}", device.name, device.about));
+        let kind = if device.hardware { "hardware" } else { "simulated" };
+        let (sensed, driven) = (device.sensed_dof, device.driven_dof);
+        let felt = if driven == 0 { String::new() } else { format!(", up to {} N", device.max_force_n) };
+        say(&format!("{:<16} {kind}, senses {sensed} and drives {driven} degrees of freedom{felt}", ""));
+        match there {
+            Ok(found) => say(&format!("{:<16} present: {found}", "")),
+            Err(error) => say(&format!("{:<16} absent: {error}", "")),
+        }
+    }
+    say("\nChoose one with `hapflow run --device NAME`; `--motion FILE` replays a recorded hand.");
+}
+
+fn device_json(device: &DeviceInfo) -> serde_json::Value {
+    let there = device.presence();
+    serde_json::json!({
+        "name": device.name,
+        "about": device.about,
+        "hardware": device.hardware,
+        "present": there.is_ok(),
+        "found": there.unwrap_or_else(|error| error.to_string()),
+        "sensed_dof": device.sensed_dof,
+        "driven_dof": device.driven_dof,
+        "max_force_N": device.max_force_n,
+        "max_stiffness_N_per_m": device.max_stiffness_n_per_m,
+        "max_damping_N_s_per_m": device.max_damping_n_s_per_m,
+        "workspace_m": device.workspace_m,
+        "rate_Hz": device.rate_hz,
+    })
 }

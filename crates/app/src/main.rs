@@ -12,6 +12,7 @@ mod list;
 mod meter;
 mod outputs;
 mod run;
+mod stop;
 mod stress;
 mod summary;
 mod validate;
@@ -38,7 +39,7 @@ fn dispatch(cli: cli::Cli) -> Result<ExitCode, run::Failure> {
     match cli.command.unwrap_or_default() {
         cli::Command::Run(args) => run::run(&args)?,
         cli::Command::Scenes(args) => list::scenes(args.settings),
-        cli::Command::Devices => list::devices(),
+        cli::Command::Devices(args) => list::devices(args.json),
         cli::Command::Falcon(command) => falcon::falcon(&command)?,
         cli::Command::Validate(args) if validate::validate(&args)? => {}
         cli::Command::Validate(_) => return Ok(ExitCode::FAILURE),

@@ -11,6 +11,8 @@ pub struct Meter {
     bar: ProgressBar,
     live: bool,
     full_scale_n: f64,
+    quiet: bool,
+    told: String,
 }
 
 impl Meter {
@@ -24,7 +26,15 @@ impl Meter {
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style.progress_chars("━╸─"));
         }
-        Self { bar, live, full_scale_n }
+        Self { bar, live, full_scale_n, quiet, told: String::new() }
+    }
+
+    /// Tells a person what to do, once for each new text.
+    pub fn guide(&mut self, text: &str) {
+        if self.told != text && !self.quiet {
+            self.bar.suspend(|| eprintln!("{text}"));
+            self.told = text.to_owned();
+        }
     }
 
     /// Shows where a run stands.

@@ -5,13 +5,15 @@ use crate::draw::error::DrawError;
 use crate::falcon::TableError;
 use crate::meter::Meter;
 use crate::outputs::{self, OutputError};
+use crate::stop::Stop;
 use crate::summary::Summary;
-use hapflow_devices::falcon::GeometryError;
+use hapflow_devices::DeviceError;
+use hapflow_devices::falcon::{FalconError, GeometryError};
 use hapflow_engine::run::{Outcome, Progress, RunOptions, real_time, virtual_clock};
 use hapflow_engine::{Scene, SceneError, Value, load, settings};
 use hapflow_validation::ValidationError;
+use std::cell::RefCell;
 use std::io::Write;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// Pictures of a run.
@@ -32,6 +34,12 @@ pub enum Failure {
     /// A parameter set of a Falcon that cannot be used.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
+    /// A device that is not there, cannot be used, or was lost.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// A file that a command could not write.
+    #[error("{0}: {1}")]
+    Write(String, std::io::Error),
     /// A CSV file that cannot be used.
     #[error(transparent)]
     Table(#[from] TableError),
@@ -58,20 +66,44 @@ pub enum Failure {
 impl Failure {
     /// The program's exit code.
     pub fn code(&self) -> u8 {
-        if matches!(self, Self::Output(_) | Self::Picture(_)) { 1 } else { 2 }
+        match self {
+            Self::Output(_) | Self::Picture(_) | Self::Write(..) => 1,
+            Self::Device(error) | Self::Scene(SceneError::Device(error)) => device_code(error),
+            _ => 2,
+        }
+    }
+}
+
+/// A device that is not there, or fails, is not the words' fault.
+fn device_code(error: &DeviceError) -> u8 {
+    match error {
+        DeviceError::Falcon(FalconError::Firmware(_) | FalconError::Geometry(_)) => 2,
+        DeviceError::Falcon(_) | DeviceError::Unavailable { .. } | DeviceError::Lost { .. } => 1,
+        _ => 2,
     }
 }
 
 /// Runs a scene and writes what came of it.
 pub fn run(args: &RunArgs) -> Result<(), Failure> {
     let scene = scene(args)?;
+    let realtime = args.realtime || scene.device_info().hardware;
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(file_stem(&scene)));
     make_folder(&folder)?;
-    let outcome = step(args, &scene)?;
+    let outcome = step(args, &scene, realtime)?;
     let summary = Summary::new(&scene, &outcome);
     outputs::write(&folder, &scene, &outcome, &summary)?;
     tell(args, &scene, &outcome, &summary, &folder);
-    Ok(())
+    outcome.lost.map_or(Ok(()), |lost| Err(Failure::Device(lost)))
+}
+
+/// The device that `--device` means, and says which where it was left open.
+fn device(name: &str) -> Result<&'static str, Failure> {
+    if name != "auto" {
+        return Ok(hapflow_devices::find(name)?.name);
+    }
+    let found = hapflow_devices::first_present().unwrap_or(hapflow_devices::HAND);
+    eprintln!("device: {}, {}", found.name, found.about);
+    Ok(found.name)
 }
 
 /// The scene with everything that the command line changes in it.
@@ -93,6 +125,9 @@ fn scene(args: &RunArgs) -> Result<Scene, Failure> {
         if let Some(number) = number {
             put(path, Value::Number(number))?;
         }
+    }
+    if let Some(name) = &args.device {
+        put("run.device", Value::Text(device(name)?.into()))?;
     }
     if let Some(motion) = &args.motion {
         put("run.motion", Value::Text(motion.clone()))?;
@@ -128,20 +163,26 @@ fn make_folder(folder: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-fn step(args: &RunArgs, scene: &Scene) -> Result<Outcome, Failure> {
+fn step(args: &RunArgs, scene: &Scene, realtime: bool) -> Result<Outcome, Failure> {
     let pictures_at: Vec<f64> =
         (1..=PICTURES).map(|k| scene.run.duration * (k as f64 - 0.35) / PICTURES as f64).collect();
-    let meter = Meter::new(args.json, args.realtime, scene.gate.max_force_n);
+    let meter = RefCell::new(Meter::new(args.json, realtime, scene.gate.max_force_n));
+    let stop = Stop::arm(realtime);
+    let mut guide = |text: &str| {
+        meter.borrow_mut().guide(text);
+        stop.flow()
+    };
     let mut progress = |p: Progress<'_>| {
-        meter.show(&p);
-        ControlFlow::Continue(())
+        meter.borrow().show(&p);
+        stop.flow()
     };
     let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let threads = if args.threads == 0 && !args.realtime { all } else { args.threads };
+    let threads = if args.threads == 0 && !realtime { all } else { args.threads };
     let record = args.record.as_deref();
-    let options = RunOptions { threads, pictures_at: &pictures_at, record, progress: &mut progress };
-    let outcome = if args.realtime { real_time(scene, options) } else { virtual_clock(scene, options) };
-    meter.clear();
+    let options =
+        RunOptions { threads, pictures_at: &pictures_at, record, guide: &mut guide, progress: &mut progress };
+    let outcome = if realtime { real_time(scene, options) } else { virtual_clock(scene, options) };
+    meter.borrow().clear();
     Ok(outcome?)
 }
 

@@ -2,6 +2,7 @@
 
 use crate::generated as c;
 use hapflow_devices::DeviceError;
+use hapflow_devices::falcon::FalconError;
 use hapflow_engine::SceneError;
 use std::ffi::CStr;
 
@@ -88,6 +89,8 @@ fn of_device(error: &DeviceError) -> Code {
         DeviceError::Unavailable { .. } | DeviceError::Lost { .. } | DeviceError::Closed { .. } => {
             Code::ERROR_DEVICE
         }
+        DeviceError::Falcon(FalconError::Firmware(_) | FalconError::Geometry(_)) => Code::ERROR_VALUE,
+        DeviceError::Falcon(_) => Code::ERROR_DEVICE,
         DeviceError::Setting(_) => Code::ERROR_VALUE,
         DeviceError::Motion(_) | DeviceError::Script(_) => Code::ERROR_SCENE,
     }

@@ -8,11 +8,12 @@ use crate::fence::{fence, fence_main};
 use crate::handle::DeviceHandle;
 use crate::hooks;
 use crate::servo::remark;
+use crate::session::open_ready;
 use crate::table::LIBRARY;
 use crate::tool_state::{ToolStateRecord, check_dt, check_time};
 use crate::wrench::WrenchRecord;
 use hapflow_devices::HapticDevice;
-use hapflow_engine::{Scene, SceneError, open_device};
+use hapflow_engine::{Scene, SceneError};
 use hapflow_haptics::{FaultSet, GatedWrench, ModelAge, SafetyGate, ToolState, Wrench};
 use hapflow_realtime::{Faultable, SharedFlags};
 
@@ -42,7 +43,7 @@ impl Faultable for DeviceSide {
 
 impl DeviceSide {
     fn open(scene: &Scene) -> Result<Self, Failure> {
-        let (device, gate) = (open_device(scene)?, SafetyGate::new(scene.gate).map_err(SceneError::from)?);
+        let (device, gate) = (open_ready(scene)?, SafetyGate::new(scene.gate).map_err(SceneError::from)?);
         Ok(Self { device, gate, found: FaultSet::NONE, clear: SharedFlags::new(), last_s: None })
     }
 

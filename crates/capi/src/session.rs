@@ -24,6 +24,7 @@ use hapflow_fluid::ParticleView;
 use hapflow_haptics::{FaultSet, Touching};
 use hapflow_realtime::Faultable;
 use std::ffi::c_char;
+use std::ops::ControlFlow;
 
 /// Main's part of a session.
 pub struct MainSide {
@@ -134,6 +135,13 @@ impl AnySide {
     }
 }
 
+/// The device of a scene, ready to be used; one that has to be homed waits for the person, whom its lights lead.
+pub fn open_ready(scene: &Scene) -> Result<Box<dyn HapticDevice>, Failure> {
+    let mut device = open_device(scene)?;
+    device.prepare(&mut |_| ControlFlow::Continue(()))?;
+    Ok(device)
+}
+
 /// The devices of an owned servo: those of the host, else the scene's own.
 fn devices(config: &SessionConfig, scene: &Scene) -> Result<Vec<Box<dyn HapticDevice>>, Failure> {
     let given = config.devices()?;
@@ -141,7 +149,7 @@ fn devices(config: &SessionConfig, scene: &Scene) -> Result<Vec<Box<dyn HapticDe
         return Ok(Vec::new());
     }
     if given.is_empty() {
-        return Ok(vec![open_device(scene)?]);
+        return Ok(vec![open_ready(scene)?]);
     }
     let tools = scene.tools().count();
     if given.len() > tools {

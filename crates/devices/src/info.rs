@@ -1,5 +1,6 @@
 //! Which devices there are.
 
+use crate::falcon::{self, FalconError};
 use crate::{DeviceError, HandSettings};
 
 /// What a person needs to know to choose a device.
@@ -15,40 +16,99 @@ pub struct DeviceInfo {
     pub driven_dof: u8,
     /// Largest force, N; 0 where the hand feels nothing.
     pub max_force_n: f64,
+    /// Largest stiffness that it renders without trembling, N/m; 0 where the hand feels nothing, or where the limit is
+    /// not the device's.
+    pub max_stiffness_n_per_m: f64,
+    /// Largest damping that it renders without trembling, N·s/m; 0 likewise.
+    pub max_damping_n_s_per_m: f64,
+    /// Size of its workspace along x, y and z, m; 0 where there is no limit.
+    pub workspace_m: [f64; 3],
+    /// Usual rate, Hz.
+    pub rate_hz: f64,
     /// True for a machine that a person holds, false for a simulated one.
     pub hardware: bool,
 }
 
-const DEVICES: [DeviceInfo; 3] = [
-    DeviceInfo {
-        name: "null",
-        about: "stays at one place and feels nothing",
-        sensed_dof: 3,
-        driven_dof: 0,
-        max_force_n: 0.0,
-        hardware: false,
-    },
-    DeviceInfo {
-        name: "replay",
-        about: "follows a motion from a CSV file or a built-in one, and feels nothing",
-        sensed_dof: 3,
-        driven_dof: 0,
-        max_force_n: 0.0,
-        hardware: false,
-    },
-    DeviceInfo {
-        name: "hand",
-        about: "a simulated hand that follows a script and gives way to the force",
-        sensed_dof: 3,
-        driven_dof: 3,
-        max_force_n: HandSettings::MAX_FORCE_N,
-        hardware: false,
-    },
-];
+impl DeviceInfo {
+    /// What there is of it now, or why there is nothing. Thread: main; asks the system.
+    ///
+    /// # Errors
+    /// [`DeviceError`] with what a person can do.
+    pub fn presence(&self) -> Result<String, DeviceError> {
+        match self.name {
+            "falcon" => {
+                let found = falcon::plugged_in()?;
+                let first = found.first().ok_or(FalconError::NotFound { serial: None })?;
+                let serial = first.serial.clone()?;
+                Ok(format!("{} plugged in, the first with serial number \"{serial}\"", found.len()))
+            }
+            _ => Ok("always there".into()),
+        }
+    }
+}
+
+/// One that stays at one place.
+pub const NULL: DeviceInfo = DeviceInfo {
+    name: "null",
+    about: "stays at one place and feels nothing",
+    sensed_dof: 3,
+    driven_dof: 0,
+    max_force_n: 0.0,
+    max_stiffness_n_per_m: 0.0,
+    max_damping_n_s_per_m: 0.0,
+    workspace_m: [0.0; 3],
+    rate_hz: 1000.0,
+    hardware: false,
+};
+
+/// One that follows a motion.
+pub const REPLAY: DeviceInfo = DeviceInfo {
+    name: "replay",
+    about: "follows a motion from a CSV file or a built-in one, and feels nothing",
+    ..NULL
+};
+
+/// A simulated hand.
+pub const HAND: DeviceInfo = DeviceInfo {
+    name: "hand",
+    about: "a simulated hand that follows a script and gives way to the force",
+    driven_dof: 3,
+    max_force_n: HandSettings::MAX_FORCE_N,
+    ..NULL
+};
+
+/// A Novint Falcon. Force: the weakest direction in the usual part of the workspace at full counts. Stiffness and damping:
+/// the limits of its maker's own library.
+pub const FALCON: DeviceInfo = DeviceInfo {
+    name: "falcon",
+    about: "a Novint Falcon by USB",
+    driven_dof: 3,
+    max_force_n: 8.0,
+    max_stiffness_n_per_m: 3000.0,
+    max_damping_n_s_per_m: 20.0,
+    workspace_m: [0.1; 3],
+    hardware: true,
+    ..NULL
+};
+
+/// A Falcon that is not there.
+pub const EMULATED_FALCON: DeviceInfo = DeviceInfo {
+    name: "emulated-falcon",
+    about: "a Novint Falcon that is emulated down to USB transfers, in a simulated hand",
+    hardware: false,
+    ..FALCON
+};
+
+const DEVICES: [DeviceInfo; 5] = [NULL, REPLAY, HAND, FALCON, EMULATED_FALCON];
 
 /// Every device that this build knows. Allocates.
 pub fn list() -> Vec<DeviceInfo> {
     DEVICES.to_vec()
+}
+
+/// The first device that is real and there, if there is one. Thread: main; asks the system.
+pub fn first_present() -> Option<DeviceInfo> {
+    DEVICES.into_iter().find(|info| info.hardware && info.presence().is_ok())
 }
 
 /// The device called `name`.
@@ -77,6 +137,9 @@ mod tests {
     #[test]
     fn an_unknown_name_lists_the_known_ones() {
         let error = find("falcn").unwrap_err().to_string();
-        assert_eq!(error, "unknown device \"falcn\": choose one of null, replay, hand");
+        assert_eq!(
+            error,
+            "unknown device \"falcn\": choose one of null, replay, hand, falcon, emulated-falcon"
+        );
     }
 }

@@ -8,7 +8,7 @@
 //!
 //! All of them speak [`HapticDevice`]. SI units, f64, right-handed, y up. Reading and writing allocates
 //! nothing; building a device may.
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 mod at_end;
 mod device;
@@ -30,7 +30,7 @@ pub use device::{HapticDevice, Pacing};
 pub use error::DeviceError;
 pub use hand::SimulatedHand;
 pub use hand_settings::{HandPreset, HandSettings};
-pub use info::{DeviceInfo, find, list};
+pub use info::{DeviceInfo, EMULATED_FALCON, FALCON, HAND, NULL, REPLAY, find, first_present, list};
 pub use motion::{Motion, MotionSample};
 pub use motion_csv::{MAX_SAMPLES, MotionError};
 pub use null::NullDevice;

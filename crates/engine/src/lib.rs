@@ -50,10 +50,10 @@ pub use pace::VirtualPace;
 pub use recorder::Recorded;
 pub use recording::{Recording, Row, TickWriter};
 pub use scene::{
-    BackendKind, Change, DeviceKind, FreeBody, MAX_BODIES, MAX_OBSTACLES, MAX_TOOLS, MappingSettings,
-    MotionOrigin, Obstacle, RunSettings, Scene, ToolSettings,
+    BackendKind, Change, DeviceKind, FalconSettings, FreeBody, MAX_BODIES, MAX_OBSTACLES, MAX_TOOLS,
+    MappingSettings, MotionOrigin, Obstacle, RunSettings, Scene, ToolSettings,
 };
-pub use scene_device::open_device;
+pub use scene_device::{open_device, open_device_on};
 pub use scene_file::{parse, write};
 pub use servo::{ServoReport, ServoUnit};
 pub use session::{BodyList, Drive, Session, SessionOptions};

@@ -2,11 +2,14 @@
 
 use crate::{
     BodyReport, Drive, FluidPace, FluidReport, Recording, Scene, SceneError, ServoReport, Session,
-    SessionOptions, TickTimes, TickWriter, VirtualPace, open_device,
+    SessionOptions, TickTimes, TickWriter, VirtualPace, open_device_on,
 };
+use hapflow_devices::{DeviceError, Pacing};
 use hapflow_fluid::ParticleView;
 use hapflow_haptics::FaultSet;
-use hapflow_realtime::{Clock, Grant, RealClock, RealtimeStatus, lock_memory, process_cpu_s, unlock_memory};
+use hapflow_realtime::{
+    Clock, Grant, RealClock, RealtimeStatus, VirtualClock, lock_memory, process_cpu_s, unlock_memory,
+};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
@@ -36,6 +39,8 @@ pub struct RunOptions<'a> {
     pub pictures_at: &'a [f64],
     /// A file to which every tick is written as it comes: see [`TickWriter`].
     pub record: Option<&'a Path>,
+    /// Called with what a person has to do before the device is ready; `Break` gives it up.
+    pub guide: &'a mut dyn FnMut(&str) -> ControlFlow<()>,
     /// Called now and then; `Break` ends the run early.
     pub progress: &'a mut dyn FnMut(Progress<'_>) -> ControlFlow<()>,
 }
@@ -85,6 +90,8 @@ pub struct Outcome {
     pub pictures: Vec<Picture>,
     /// What it took.
     pub timing: Timing,
+    /// Why the device was lost, if it was.
+    pub lost: Option<DeviceError>,
     /// In real time: what the system granted, and how the fluid kept up.
     pub realtime: Option<(RealtimeStatus, FluidPace)>,
 }
@@ -94,13 +101,18 @@ const TELL_EVERY: u64 = 20;
 
 /// Runs `scene` on a virtual clock: as fast as it goes, and the same each time. A fluid frame's model is
 /// published `run.fluid_delay` frames (one, by default) after its tool path ended, as a real machine would: no free look
-/// ahead.
+/// ahead. A device that sets its own pace sets the clock.
 ///
 /// # Errors
-/// What [`Session::open`] refuses, or a recording that cannot be written.
+/// What [`Session::open`] refuses, a device that is real, or is not there, or a recording that cannot be written.
 pub fn virtual_clock(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, SceneError> {
+    if scene.device_info().hardware {
+        return Err(SceneError::Refused("a device in a hand runs in real time only".into()));
+    }
     let session_options = SessionOptions { threads: options.threads, ..SessionOptions::hosted() };
-    let mut device = open_device(scene)?;
+    let clock: Arc<dyn Clock> = Arc::new(VirtualClock::new());
+    let mut device = open_device_on(scene, &clock)?;
+    device.prepare(options.guide)?;
     let mut session = Session::open(scene, session_options)?;
     let (Some(mut servo), Some(mut fluid)) = (session.take_servo(), session.take_fluid()) else {
         return Err(SceneError::Refused("the session's halves are taken".into()));
@@ -108,15 +120,18 @@ pub fn virtual_clock(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, 
     let mut run = Run::begin(scene, options.record)?;
     let mut pace = VirtualPace::new(scene);
     let mut pictures = options.pictures_at.iter().peekable();
-    let ticks = (scene.run.duration / TICK_S).round() as u64;
-    for n in 0..ticks {
-        let time_s = n as f64 * TICK_S;
+    let mut time = RunTime::begin(device.pacing(), clock);
+    for n in 0.. {
+        let state = device.read(time.due_s(n))?;
+        let (time_s, dt_s) = time.tick(n);
+        if time_s >= scene.run.duration - 0.5 * TICK_S {
+            break;
+        }
         pace.advance(&mut fluid, time_s);
-        let state = device.read(time_s)?;
         let before = Instant::now();
-        let wrench = servo.tick(&state, time_s, TICK_S);
+        let wrench = servo.tick(&state, time_s, dt_s);
         run.outcome.timing.ticks.add(before.elapsed().as_nanos() as u64);
-        device.write(wrench, TICK_S)?;
+        device.write(wrench, dt_s)?;
         run.record(servo.newest());
         if pictures.next_if(|at| **at <= time_s).is_some() {
             let mut particles = ParticleView::default();
@@ -132,20 +147,51 @@ pub fn virtual_clock(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, 
     run.end(*fluid.newest())
 }
 
+/// The times of a virtual run's ticks: even ones, or those that the device sets.
+struct RunTime {
+    pacing: Pacing,
+    clock: Arc<dyn Clock>,
+    begin_ns: u64,
+    last_s: f64,
+}
+
+impl RunTime {
+    fn begin(pacing: Pacing, clock: Arc<dyn Clock>) -> Self {
+        let begin_ns = clock.now_ns();
+        Self { pacing, clock, begin_ns, last_s: -TICK_S }
+    }
+
+    /// When tick `n` is due, s.
+    fn due_s(&self, n: u64) -> f64 {
+        n as f64 * TICK_S
+    }
+
+    /// The time of tick `n`, once the device was read, and since the last, s.
+    fn tick(&mut self, n: u64) -> (f64, f64) {
+        if self.pacing == Pacing::Timer {
+            return (self.due_s(n), TICK_S);
+        }
+        let time_s = (self.clock.now_ns() - self.begin_ns) as f64 * 1e-9;
+        (time_s, time_s - std::mem::replace(&mut self.last_s, time_s))
+    }
+}
+
 /// Runs `scene` in real time: a servo thread at 1 kHz, a fluid thread, and main that records.
 ///
 /// # Errors
 /// What [`Session::open`] refuses, or a recording that cannot be written.
 pub fn real_time(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, SceneError> {
-    let clock = Arc::new(RealClock::new());
+    let clock: Arc<dyn Clock> = Arc::new(RealClock::new());
+    let mut device = open_device_on(scene, &clock)?;
+    device.prepare(options.guide)?;
     // A page that is fetched from disc in a tick makes it late.
     let memory = Grant::from(lock_memory());
     let session_options = SessionOptions {
         servo_drive: Drive::Owned,
         fluid_drive: Drive::Owned,
         threads: options.threads,
-        devices: vec![open_device(scene)?],
-        clock: Arc::clone(&clock) as Arc<dyn Clock>,
+        devices: vec![device],
+        clock,
         tape: 8192,
     };
     let mut session = Session::open(scene, session_options)?;
@@ -173,6 +219,7 @@ pub fn real_time(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, Scen
     let fluid = session.fluid_report();
     let status = RealtimeStatus { memory, ..session.realtime_status().unwrap_or_default() };
     let (ticks, pace) = session.close();
+    run.outcome.lost = session.take_lost();
     // Refused or not, nothing is locked any more.
     let _ = unlock_memory();
     while let Some(report) = tape.pop() {
@@ -203,6 +250,7 @@ impl Run {
                 faults: FaultSet::NONE,
                 pictures: Vec::new(),
                 timing: Timing::default(),
+                lost: None,
                 realtime: None,
             },
             duration_s: scene.run.duration,

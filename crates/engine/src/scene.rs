@@ -4,7 +4,8 @@ use crate::force_limit::ForceLimit;
 use crate::form::Form;
 use crate::{SceneError, Value, settings};
 use glam::DVec3;
-use hapflow_devices::{HandPreset, HandSettings, Segment};
+use hapflow_devices::falcon::Geometry;
+use hapflow_devices::{DeviceInfo, HandPreset, HandSettings, Segment};
 use hapflow_fluid::{
     Aabb, BodyConfig, Container, ContainerForm, FluidConfig, FluidSettings, MIN_MASS_RATIO, Source, World,
 };
@@ -28,6 +29,21 @@ pub enum DeviceKind {
     Replay,
     /// One that stays where it is.
     Null,
+    /// A Novint Falcon at this machine's USB.
+    Falcon,
+    /// A Falcon that is emulated down to USB transfers, in a hand that does as the scene's script says.
+    EmulatedFalcon,
+}
+
+/// Which Falcon, and how.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FalconSettings {
+    /// Firmware image to load if none runs; empty: none.
+    pub firmware: String,
+    /// Lengths and strengths: a shipped set or a file.
+    pub geometry: String,
+    /// Serial number; empty takes the first.
+    pub serial: String,
 }
 
 /// Where the origin of a recorded motion is.
@@ -156,6 +172,8 @@ pub struct MappingSettings {
     pub rim_radius: f64,
     /// Stiffness of the rim, N/m.
     pub rim_stiffness: f64,
+    /// Mass of the device's grip whose weight is taken off the hand, kg.
+    pub carried_mass: f64,
 }
 
 /// New values for some settings at a time.
@@ -217,6 +235,8 @@ pub struct Scene {
     pub gate: GateSettings,
     /// From device to scene.
     pub mapping: MappingSettings,
+    /// The Falcon.
+    pub falcon: FalconSettings,
     /// The simulated hand.
     pub hand: HandSettings,
     /// What it does, in scene coordinates.
@@ -261,7 +281,9 @@ impl Default for Scene {
                 offset: DVec3::ZERO,
                 rim_radius: 0.0,
                 rim_stiffness: Rim::DEFAULT_STIFFNESS_N_PER_M,
+                carried_mass: 0.0,
             },
+            falcon: FalconSettings { geometry: Geometry::NAMES[0].into(), ..FalconSettings::default() },
             hand: HandSettings::preset(HandPreset::Normal),
             script: Vec::new(),
             changes: Vec::new(),
@@ -315,6 +337,17 @@ impl Scene {
     }
 
     /// The mapping in use.
+    /// What is known of the device that it asks for.
+    pub fn device_info(&self) -> DeviceInfo {
+        match self.run.device {
+            DeviceKind::Hand => hapflow_devices::HAND,
+            DeviceKind::Replay => hapflow_devices::REPLAY,
+            DeviceKind::Null => hapflow_devices::NULL,
+            DeviceKind::Falcon => hapflow_devices::FALCON,
+            DeviceKind::EmulatedFalcon => hapflow_devices::EMULATED_FALCON,
+        }
+    }
+
     pub(crate) fn mapping(&self) -> Result<Mapping, SceneError> {
         let m = &self.mapping;
         let refused = |e: &dyn std::fmt::Display| SceneError::Refused(format!("mapping: {e}"));

@@ -376,6 +376,7 @@ fn unknown_section(key: &str) -> String {
         "tool",
         "gate",
         "mapping",
+        "falcon",
     ];
     let nearest = known.into_iter().min_by_key(|k| settings::distance(k, key)).unwrap_or("");
     if known.contains(&key) {

@@ -55,6 +55,8 @@ pub struct ServoReport {
 pub struct ServoUnit {
     pub(crate) mapping: Mapping,
     pub(crate) rendering: Rendering,
+    /// What carries the weight of the device's grip, device frame.
+    pub(crate) lift: Wrench,
     pub(crate) filter: Filter,
     pub(crate) gate: SafetyGate,
     pub(crate) limit: ForceLimit,
@@ -108,7 +110,7 @@ impl ServoUnit {
         let filtered = self.filter.step(raw, new_frame);
         // Solids are not filtered: they would feel late, and soft.
         let felt = filtered + Wrench::from_force(pushed);
-        let wanted = self.mapping.to_device(felt) + self.mapping.rim_force(&self.last_device);
+        let wanted = self.mapping.to_device(felt) + self.mapping.rim_force(&self.last_device) + self.lift;
         let (age, body, frame) = (self.age(model, time_s), model.body, model.frame);
         let faults = faults | FaultSet::PATH_OVERFLOW.when(lost);
         let sent = self.gate.pass(wanted, &age, faults, dt_s);

@@ -12,12 +12,13 @@ use crate::tick_times::TickTimes;
 use crate::tool_lane::ToolLane;
 use crate::touch::{SolidPaths, Touch};
 use crate::{SceneError, Value};
-use hapflow_devices::HapticDevice;
+use glam::DVec3;
+use hapflow_devices::{DeviceError, HapticDevice};
 use hapflow_fluid::{
     AnalyticJet, BodyConfig, BodyLoad, BodySample, CpuBackend, FluidBackend, FluidConfig, ParticleView,
     Surroundings,
 };
-use hapflow_haptics::{Filter, LocalModel, Rendering, SafetyGate, ToolState, Touching};
+use hapflow_haptics::{Filter, LocalModel, Rendering, SafetyGate, ToolState, Touching, Wrench};
 use hapflow_realtime::{
     Clock, HostClock, LatestReader, LatestWriter, RealtimeStatus, RingConsumer, SharedFlags, latest, ring,
 };
@@ -110,6 +111,8 @@ pub struct Session {
     fluid: Option<FluidUnit>,
     mover: Option<ObstacleMover>,
     owned: Owned,
+    /// Why an owned servo lost its device, once it was stopped.
+    lost: Option<DeviceError>,
     recorder: Option<Recorder>,
 }
 
@@ -174,6 +177,7 @@ impl Session {
             fluid,
             mover,
             owned,
+            lost: None,
             recorder: None,
         };
         session.start(options)?;
@@ -391,13 +395,21 @@ impl Session {
     /// Stops owned threads, the servos first, with zero force, and a recording; says how the first of them and the fluid kept
     /// time.
     pub fn close(&mut self) -> (TickTimes, FluidPace) {
-        let mut ticks = self.owned.servos.drain(..).map(|mut s| s.stop());
-        let first = ticks.next().unwrap_or_default();
-        ticks.for_each(drop);
+        let mut first = None;
+        for mut servo in self.owned.servos.drain(..) {
+            let (ticks, lost) = servo.stop();
+            first.get_or_insert(ticks);
+            self.lost = self.lost.take().or(lost);
+        }
         let pace = self.owned.fluid.take().map(|mut f| f.stop()).unwrap_or_default();
         // Who asks for it by `stop_recording` gets its result; here nobody does.
         let _ = self.stop_recording();
-        (first, pace)
+        (first.unwrap_or_default(), pace)
+    }
+
+    /// Why the first owned servo that lost its device did, once the session is closed.
+    pub fn take_lost(&mut self) -> Option<DeviceError> {
+        self.lost.take()
     }
 }
 
@@ -406,6 +418,9 @@ impl Drop for Session {
         self.close();
     }
 }
+
+/// Acceleration of a falling body, m/s²: the device stands on the earth, wherever its scene is.
+const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// All cores but one, which the servo needs; of two, both: the servo takes precedence and little time.
 fn default_threads() -> usize {
@@ -445,6 +460,7 @@ fn open_tool(
         last_device: mapping.device_state(ToolState::at(tool.position)),
         mapping,
         rendering: Rendering::new(scene.run.coupling),
+        lift: Wrench::from_force(DVec3::Y * (scene.mapping.carried_mass * STANDARD_GRAVITY)),
         filter: Filter::new(&scene.filter(), 1000.0)?,
         gate: SafetyGate::new(scene.gate)?,
         limit: control.limit.clone(),

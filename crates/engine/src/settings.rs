@@ -187,6 +187,20 @@ macro_rules! vector {
     };
 }
 
+macro_rules! text {
+    ($path:literal, $($field:ident).+, $about:literal) => {
+        Setting {
+            path: $path,
+            unit: "",
+            kind: Kind::Text,
+            live: FIXED,
+            about: $about,
+            get: |s| Value::Text(s.$($field).+.clone()),
+            set: |s, v| { s.$($field).+ = v.text().to_string(); Ok(()) },
+        }
+    };
+}
+
 /// A choice among the variants of an enum, in the order of its words.
 macro_rules! choice {
     ($path:literal, $live:ident, $($field:ident).+, [$($word:literal => $variant:path),+], $about:literal) => {
@@ -245,19 +259,12 @@ const RUN_AND_FLUID: &[Setting<Scene>] = &[
         set: set_filter,
     },
     choice!("run.backend", FIXED, run.backend, ["cpu" => BackendKind::Cpu, "analytic-jet" => BackendKind::AnalyticJet], "Who computes the fluid: particles on the CPU, or jets in closed form."),
-    choice!("run.device", FIXED, run.device, ["hand" => DeviceKind::Hand, "replay" => DeviceKind::Replay, "null" => DeviceKind::Null], "What moves the tool: a simulated hand, a recorded motion, or nothing."),
-    Setting {
-        path: "run.motion",
-        unit: "",
-        kind: Kind::Text,
-        live: FIXED,
-        about: "Motion of the replay device: a shipped name or a CSV file (time_s,x_m,y_m,z_m).",
-        get: |s| Value::Text(s.run.motion.clone()),
-        set: |s, v| {
-            s.run.motion = v.text().to_string();
-            Ok(())
-        },
-    },
+    choice!("run.device", FIXED, run.device, ["hand" => DeviceKind::Hand, "replay" => DeviceKind::Replay, "null" => DeviceKind::Null, "falcon" => DeviceKind::Falcon, "emulated-falcon" => DeviceKind::EmulatedFalcon], "What moves the tool: a simulated hand, a recorded motion, nothing, a Novint Falcon, or one that is emulated down to USB."),
+    text!(
+        "run.motion",
+        run.motion,
+        "Motion of the replay device: a shipped name or a CSV file (time_s,x_m,y_m,z_m)."
+    ),
     choice!("run.motion_origin", FIXED, run.motion_origin, ["tool" => MotionOrigin::Tool, "scene" => MotionOrigin::Scene], "Where that motion begins: at the tool's start, in the device's axes, or where it says in the scene, as a recording has it."),
     choice!("fluid.solver", LIVE, fluid.solver, ["wcsph" => Solver::Wcsph, "dfsph" => Solver::Dfsph, "muller" => Solver::Muller], "`wcsph`: stiff, with density diffusion and analytic walls; `dfsph`: incompressible by iteration, the same walls; `muller`: the thesis's."),
     choice!("fluid.mode", LIVE, fluid.mode, ["full" => InteractionMode::Full, "none" => InteractionMode::None, "mixed" => InteractionMode::Mixed], "Which particles act on which: all; none (gravity and contacts only); or in every other sub-step."),
@@ -581,6 +588,29 @@ const OTHERS: &[Setting<Scene>] = &[
         FIXED,
         mapping.rim_stiffness,
         "Stiffness of the rim."
+    ),
+    number!(
+        "mapping.carried_mass",
+        "kg",
+        0.0..=1.0,
+        FIXED,
+        mapping.carried_mass,
+        "Mass of the device's grip, whose weight is taken off the hand, within the gate's limits; a Falcon's is about 0.12."
+    ),
+    text!(
+        "falcon.firmware",
+        falcon.firmware,
+        "Firmware image to load into a Falcon that has none yet; \"\" is none."
+    ),
+    text!(
+        "falcon.geometry",
+        falcon.geometry,
+        "Its lengths and strengths: libnifalcon, martin, or a parameter file."
+    ),
+    text!(
+        "falcon.serial",
+        falcon.serial,
+        "Its serial number, where there are several; \"\" takes the first."
     ),
     number!(
         "hand.device_mass",

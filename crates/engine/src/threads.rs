@@ -4,7 +4,7 @@ use crate::SceneError;
 use crate::fluid_unit::FluidUnit;
 use crate::servo::ServoUnit;
 use crate::tick_times::TickTimes;
-use hapflow_devices::HapticDevice;
+use hapflow_devices::{DeviceError, HapticDevice, Pacing};
 use hapflow_haptics::{FaultSet, GatedWrench};
 use hapflow_realtime::{
     Clock, Grant, HostClock, LatestReader, LatestWriter, RealtimeStatus, RealtimeThread, latest,
@@ -33,10 +33,10 @@ pub struct ServoPace {
     pub ticks: TickTimes,
 }
 
-/// The servo's thread: it paces itself at 1 kHz and owns the device.
+/// The servo's thread: it owns the device, and paces itself at 1 kHz where the device does not.
 pub struct ServoThread {
     stop: Arc<AtomicBool>,
-    thread: Option<RealtimeThread<()>>,
+    thread: Option<RealtimeThread<Option<DeviceError>>>,
     status: RealtimeStatus,
     times: LatestReader<TickTimes>,
 }
@@ -81,13 +81,11 @@ impl ServoThread {
         ServoPace { priority, runs, ticks: self.times.get().clone() }
     }
 
-    /// Stops it, with zero force, and gives its ticks' times.
-    pub fn stop(&mut self) -> TickTimes {
+    /// Stops it, with zero force, and gives its ticks' times, and why its device was lost, if it was.
+    pub fn stop(&mut self) -> (TickTimes, Option<DeviceError>) {
         self.stop.store(true, Ordering::Release);
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join();
-        }
-        self.pace().ticks
+        let ended = self.thread.take().map(RealtimeThread::join);
+        (self.pace().ticks, ended.and_then(Result::ok).flatten())
     }
 }
 
@@ -97,42 +95,50 @@ impl Drop for ServoThread {
     }
 }
 
+/// Ticks until it is to stop, or the device is lost, and says why it was.
 fn servo_loop(
     mut servo: ServoUnit,
     mut device: Box<dyn HapticDevice>,
     clock: &dyn Clock,
     stop: &AtomicBool,
     mut tell: LatestWriter<TickTimes>,
-) {
+) -> Option<DeviceError> {
     let mut times = TickTimes::default();
-    let mut due = clock.now_ns() + TICK_NS;
+    let timed = device.pacing() == Pacing::Timer;
     let mut last = clock.now_ns();
+    let mut due = last + TICK_NS;
     let mut ticks = 0_u64;
+    let mut lost = None;
     while !stop.load(Ordering::Acquire) {
-        clock.wait_until_ns(due);
-        let now = clock.now_ns();
+        if timed {
+            clock.wait_until_ns(due);
+        }
+        let now = match catch_unwind(AssertUnwindSafe(|| tick(&mut servo, &mut *device, clock, last))) {
+            Ok(Ok(now)) => now,
+            ended => {
+                // A panic or a lost device: zero force, and no tick again.
+                servo.raise(if ended.is_ok() { FaultSet::DEVICE_LOST } else { FaultSet::PANIC });
+                lost = ended.ok().and_then(Result::err);
+                break;
+            }
+        };
         let late = now.saturating_sub(due);
         times.late += u64::from(late > TICK_NS / 2);
-        let ticked = catch_unwind(AssertUnwindSafe(|| tick(&mut servo, &mut *device, now, now - last)));
-        if !matches!(ticked, Ok(true)) {
-            // A panic or a lost device: zero force, and no tick again.
-            servo.raise(if ticked.is_ok() { FaultSet::DEVICE_LOST } else { FaultSet::PANIC });
-            break;
-        }
         times.add(clock.now_ns() - now);
         ticks += 1;
         if ticks.is_multiple_of(TELL_TICKS) {
             tell_times(&mut tell, &times);
         }
         last = now;
-        // Ticks that were missed are not made up for.
-        due = if late > TICK_NS { now + TICK_NS } else { due + TICK_NS };
+        // Ticks that were missed are not made up for; and those of a device come when it says.
+        due = if timed && late <= TICK_NS { due + TICK_NS } else { now + TICK_NS };
     }
     let _ = catch_unwind(AssertUnwindSafe(|| {
         let _ = device.write(GatedWrench::ZERO, 1e-3);
         device.close();
     }));
     tell_times(&mut tell, &times);
+    lost
 }
 
 fn tell_times(tell: &mut LatestWriter<TickTimes>, times: &TickTimes) {
@@ -140,12 +146,22 @@ fn tell_times(tell: &mut LatestWriter<TickTimes>, times: &TickTimes) {
     tell.publish();
 }
 
-/// One tick with the device; false when it is lost.
-fn tick(servo: &mut ServoUnit, device: &mut dyn HapticDevice, now: u64, dt: u64) -> bool {
-    let (time_s, dt_s) = (now as f64 * 1e-9, dt as f64 * 1e-9);
-    let Ok(state) = device.read(time_s) else { return false };
-    let wrench = servo.tick(&state, time_s, dt_s);
-    device.write(wrench, dt_s).is_ok()
+/// One tick with the device, and its time, ns.
+fn tick(
+    servo: &mut ServoUnit,
+    device: &mut dyn HapticDevice,
+    clock: &dyn Clock,
+    last: u64,
+) -> Result<u64, DeviceError> {
+    let seconds = |ns: u64| ns as f64 * 1e-9;
+    let asked = clock.now_ns();
+    let state = device.read(seconds(asked))?;
+    // A device that sets the pace has waited for its state.
+    let now = if device.pacing() == Pacing::Device { clock.now_ns() } else { asked };
+    let dt_s = seconds(now.saturating_sub(last));
+    let wrench = servo.tick(&state, seconds(now), dt_s);
+    device.write(wrench, dt_s)?;
+    Ok(now)
 }
 
 /// How the fluid keeps up with the clock.

@@ -34,6 +34,7 @@ mod os;
 mod priority;
 mod ring;
 mod status;
+mod stop;
 mod sync;
 mod thread;
 
@@ -46,4 +47,5 @@ pub use memory::{lock_memory, unlock_memory};
 pub use priority::{is_realtime, set_normal_priority, set_realtime_priority};
 pub use ring::{MAX_RING_CAPACITY, RingConsumer, RingProducer, ring};
 pub use status::{Grant, RealtimeStatus, Refusal};
+pub use stop::{catch_stop, stop_asked};
 pub use thread::{RealtimeThread, spawn_realtime};

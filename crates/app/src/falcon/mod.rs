@@ -1,11 +1,12 @@
 //! `hapflow falcon`.
 
 mod convert;
+mod device;
 mod table;
 
 pub use table::TableError;
 
-use crate::cli::{FalconCommand, GeometryArgs};
+use crate::cli::{FalconCommand, GeometryArgs, KinematicsArgs};
 use crate::run::Failure;
 use hapflow_devices::falcon::{Geometry, Kinematics};
 use hapflow_haptics::check_range;
@@ -14,24 +15,35 @@ use table::Table;
 
 /// Does what was asked.
 pub fn falcon(command: &FalconCommand) -> Result<(), Failure> {
-    let output = match command {
-        FalconCommand::Fk(args) => convert::fk(&Table::read(&args.file)?, &kinematics(&args.geometry)?)?,
-        FalconCommand::Force(args) => {
-            convert::force(&Table::read(&args.file)?, &kinematics(&args.geometry)?)?
-        }
-        FalconCommand::Decode(args) => convert::decode(&Table::read(&args.file)?)?,
-        FalconCommand::Encode(args) => convert::encode(&Table::read(&args.file)?)?,
-    };
-    // A closed pipe is no reason to fail.
-    let _ = std::io::stdout().write_all(&output);
+    match command {
+        FalconCommand::Info(args) => device::info(args),
+        FalconCommand::Firmware { file, falcon } => device::firmware(file, falcon),
+        FalconCommand::Home(args) => device::home(args),
+        FalconCommand::Test { seconds, falcon } => device::test(*seconds, falcon),
+        FalconCommand::Calibrate { at, falcon } => device::calibrate(at, falcon),
+        FalconCommand::Udev => device::udev(),
+        FalconCommand::Fk(args) => print(&convert::fk(&Table::read(&args.file)?, &kinematics(args)?)?),
+        FalconCommand::Force(args) => print(&convert::force(&Table::read(&args.file)?, &kinematics(args)?)?),
+        FalconCommand::Decode(args) => print(&convert::decode(&Table::read(&args.file)?)?),
+        FalconCommand::Encode(args) => print(&convert::encode(&Table::read(&args.file)?)?),
+    }
+}
+
+/// Prints a table; a closed pipe is no reason to fail.
+fn print(table: &[u8]) -> Result<(), Failure> {
+    let _ = std::io::stdout().write_all(table);
     Ok(())
 }
 
-fn kinematics(args: &GeometryArgs) -> Result<Kinematics, Failure> {
+fn kinematics(args: &KinematicsArgs) -> Result<Kinematics, Failure> {
+    Ok(Kinematics::new(geometry(&args.geometry)?))
+}
+
+fn geometry(args: &GeometryArgs) -> Result<Geometry, Failure> {
     let mut geometry = Geometry::load(&args.geometry)?;
     if let Some(counts) = args.counts_per_nm {
         geometry.counts_per_nm = check_range("--counts-per-nm", counts, 1.0, 1e6)
             .map_err(|error| Failure::Word(error.to_string()))?;
     }
-    Ok(Kinematics::new(geometry))
+    Ok(geometry)
 }

@@ -24,6 +24,11 @@ mod packet;
 mod serial;
 mod stream;
 mod transport;
+#[cfg(feature = "falcon")]
+mod usb;
+#[cfg(not(feature = "falcon"))]
+#[path = "no_usb.rs"]
+mod usb;
 
 pub use driver::{Falcon, FalconOptions, FalconStats};
 pub use emulation::{EmulatedFalcon, EmulatedHand, EmulatedTransport, Trouble};
@@ -34,4 +39,5 @@ pub use kinematics::{Kinematics, PoseError};
 pub use motors::{MAX_MOTOR_COUNTS, motor_counts, torques_of};
 pub use packet::{Command, Leds, PACKET_BYTES, Reply};
 pub use stream::ByteStream;
-pub use transport::{LinkError, Transport, USB_PACKET_BYTES};
+pub use transport::{LinkError, PluggedIn, Transport, USB_PACKET_BYTES};
+pub use usb::{open, plugged_in};

@@ -1,5 +1,18 @@
 //! The way to a serial chip over USB, real or emulated.
 
+use crate::falcon::FalconError;
+
+/// A Falcon that is plugged in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PluggedIn {
+    /// USB bus.
+    pub bus: u8,
+    /// Address on it.
+    pub address: u8,
+    /// Its serial number, or why it cannot be had.
+    pub serial: Result<String, FalconError>,
+}
+
 /// Bytes of a full-speed bulk packet.
 pub const USB_PACKET_BYTES: usize = 64;
 

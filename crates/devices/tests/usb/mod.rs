@@ -1,0 +1,363 @@
+//! An emulated Falcon at a USB that is not there: unmodified libusb runs against it under umockdev's preload library.
+//!
+//! A folder stands for `/sys` and `/dev`. The device's file is a FIFO, which libusb waits to write to when it waits for
+//! transfers: a full one is "nothing has ended". Its ioctls come over a socket, as umockdev's preload library passes them:
+//! the client sends (1, request, argument); the server may fetch and store the client's memory by (5, address, length)
+//! and (6, address, length), and ends with (3, result, errno).
+
+use hapflow_devices::falcon::{EmulatedFalcon, LinkError, USB_PACKET_BYTES};
+use std::collections::VecDeque;
+use std::ffi::CString;
+use std::io::{self, Read, Write};
+use std::os::fd::FromRawFd;
+use std::os::unix::ffi::OsStrExt;
+use std::os::unix::fs::symlink;
+use std::os::unix::net::{UnixListener, UnixStream};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+/// The emulated device lives so much faster than the clock, to save time.
+const SPEED: u64 = 4;
+/// Serial number of the device.
+pub const SERIAL: &str = "HF000042";
+
+const DEVICE: [u8; 18] = [18, 1, 0, 2, 0, 0, 0, 8, 0x03, 0x04, 0x48, 0xCB, 0, 6, 1, 2, 3, 1];
+const CONFIGURATION: [u8; 32] = [
+    9, 2, 32, 0, 1, 1, 0, 0x80, 50, 9, 4, 0, 0, 2, 255, 255, 255, 0, 7, 5, 0x81, 2, 64, 0, 0, 7, 5, 0x02, 2,
+    64, 0, 0,
+];
+
+/// A machine with one Falcon.
+pub struct Machine {
+    root: PathBuf,
+    pub side: Arc<Side>,
+}
+
+/// The device's side of the cable.
+pub struct Side {
+    pub falcon: Mutex<EmulatedFalcon>,
+    /// Every IN transfer of this number is refused; 0 is never.
+    pub stalls_every: AtomicUsize,
+    origin: Instant,
+    packets: AtomicUsize,
+    gate: Mutex<Gate>,
+    gone: AtomicBool,
+}
+
+impl Side {
+    pub fn now(&self) -> u64 {
+        self.origin.elapsed().as_nanos() as u64 * SPEED
+    }
+}
+
+/// The FIFO: open is "something has ended".
+struct Gate {
+    fifo: std::fs::File,
+    full: bool,
+}
+
+impl Gate {
+    fn make(path: &Path) -> io::Result<Self> {
+        let name = CString::new(path.as_os_str().as_bytes())?;
+        // SAFETY: the name is a C string; a file descriptor that could be opened is owned by the file from here on.
+        let fifo = unsafe {
+            libc::mkfifo(name.as_ptr(), 0o666);
+            let fd = libc::open(name.as_ptr(), libc::O_RDWR | libc::O_NONBLOCK);
+            if fd < 0 {
+                return Err(io::Error::last_os_error());
+            }
+            libc::fcntl(fd, libc::F_SETPIPE_SZ, 4096);
+            std::fs::File::from_raw_fd(fd)
+        };
+        let mut gate = Self { fifo, full: false };
+        gate.set(false);
+        Ok(gate)
+    }
+
+    fn set(&mut self, open: bool) {
+        let mut page = [0; 4096];
+        while self.full && open && self.fifo.read(&mut page).is_ok_and(|n| n > 0) {}
+        while !self.full && !open && self.fifo.write(&page).is_ok_and(|n| n > 0) {}
+        self.full = !open;
+    }
+}
+
+impl Machine {
+    /// A machine with this Falcon plugged in.
+    pub fn new(name: &str, falcon: EmulatedFalcon) -> io::Result<Self> {
+        let root = std::env::temp_dir().join(format!("hapflow-{name}-{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&root);
+        describe(&root)?;
+        let node = root.join("dev/bus/usb/001/002");
+        let gate = Mutex::new(Gate::make(&node)?);
+        let side = Arc::new(Side {
+            falcon: Mutex::new(falcon),
+            stalls_every: AtomicUsize::new(0),
+            origin: Instant::now(),
+            packets: AtomicUsize::new(0),
+            gate,
+            gone: AtomicBool::new(false),
+        });
+        let socket = root.join("ioctl/dev/bus/usb/001/002");
+        std::fs::create_dir_all(socket.parent().unwrap_or(&root))?;
+        let listener = UnixListener::bind(socket)?;
+        let theirs = Arc::clone(&side);
+        std::thread::spawn(move || {
+            for stream in listener.incoming().flatten() {
+                let side = Arc::clone(&theirs);
+                std::thread::spawn(move || {
+                    Client { stream, side, pending: VecDeque::new(), ended: VecDeque::new() }.serve()
+                });
+            }
+        });
+        let theirs = Arc::clone(&side);
+        std::thread::spawn(move || watch(&theirs));
+        Ok(Self { root, side })
+    }
+
+    /// The variables under which a program sees this machine's USB.
+    pub fn environment(&self) -> [(&'static str, PathBuf); 2] {
+        [("LD_PRELOAD", "libumockdev-preload.so.0".into()), ("UMOCKDEV_DIR", self.root.clone())]
+    }
+}
+
+impl Drop for Machine {
+    fn drop(&mut self) {
+        self.side.gone.store(true, Ordering::Release);
+        let _ = std::fs::remove_dir_all(&self.root);
+    }
+}
+
+/// Opens the gate when the device has something to say.
+fn watch(side: &Side) {
+    while !side.gone.load(Ordering::Acquire) {
+        std::thread::sleep(Duration::from_micros(50));
+        let due = side.falcon.lock().unwrap().next_ns();
+        if due <= side.now() {
+            side.gate.lock().unwrap().set(true);
+        }
+    }
+}
+
+/// The files of a machine with a Falcon on its first bus.
+fn describe(root: &Path) -> io::Result<()> {
+    let device = root.join("sys/devices/pci0000:00/0000:00:14.0/usb1/1-1");
+    std::fs::create_dir_all(&device)?;
+    let uevent = "MAJOR=189\nMINOR=1\nDEVNAME=bus/usb/001/002\nDEVTYPE=usb_device\nPRODUCT=403/cb48/600\nBUSNUM=001\nDEVNUM=002\n";
+    for (name, text) in [
+        ("busnum", "1\n"),
+        ("devnum", "2\n"),
+        ("speed", "12\n"),
+        ("bConfigurationValue", "1\n"),
+        ("bNumConfigurations", "1\n"),
+        ("idVendor", "0403\n"),
+        ("idProduct", "cb48\n"),
+        ("dev", "189:1\n"),
+        ("uevent", uevent),
+    ] {
+        std::fs::write(device.join(name), text)?;
+    }
+    std::fs::write(device.join("descriptors"), [DEVICE.as_slice(), &CONFIGURATION].concat())?;
+    for folder in ["sys/bus/usb/devices", "dev/bus/usb/001", "dev/.node"] {
+        std::fs::create_dir_all(root.join(folder))?;
+    }
+    symlink("../../../devices/pci0000:00/0000:00:14.0/usb1/1-1", root.join("sys/bus/usb/devices/1-1"))?;
+    symlink("../../../../../bus/usb", device.join("subsystem"))?;
+    symlink("189:1", root.join("dev/.node/bus_usb_001_002"))
+}
+
+/// A transfer as the kernel has it.
+#[derive(Clone, Copy)]
+struct Urb {
+    address: u64,
+    endpoint: u8,
+    buffer: u64,
+    length: usize,
+}
+
+/// One file descriptor of the program under test.
+struct Client {
+    stream: UnixStream,
+    side: Arc<Side>,
+    /// IN transfers that wait for a packet.
+    pending: VecDeque<Urb>,
+    /// Transfers that have ended: status and length.
+    ended: VecDeque<(Urb, i32, usize)>,
+}
+
+type Answer = io::Result<(i64, i32)>;
+const DONE: (i64, i32) = (0, 0);
+
+fn refuse(errno: i32) -> (i64, i32) {
+    (-1, errno)
+}
+
+impl Client {
+    fn serve(mut self) {
+        while let Ok([kind, request, argument]) = self.receive() {
+            let answer = if kind == 1 { self.ioctl(request as u32, argument) } else { Ok((-100, 0)) };
+            let Ok((result, errno)) = answer else { return };
+            if self.send([3, result as u64, errno as u64]).is_err() {
+                return;
+            }
+        }
+    }
+
+    fn receive(&mut self) -> io::Result<[u64; 3]> {
+        let mut bytes = [0; 24];
+        self.stream.read_exact(&mut bytes)?;
+        let word = |n: usize| u64::from_ne_bytes(std::array::from_fn(|k| bytes[8 * n + k]));
+        Ok([word(0), word(1), word(2)])
+    }
+
+    fn send(&mut self, words: [u64; 3]) -> io::Result<()> {
+        self.stream.write_all(&words.map(u64::to_ne_bytes).concat())
+    }
+
+    fn fetch(&mut self, address: u64, length: usize) -> io::Result<Vec<u8>> {
+        let mut bytes = vec![0; length];
+        if length > 0 {
+            self.send([5, address, length as u64])?;
+            self.stream.read_exact(&mut bytes)?;
+        }
+        Ok(bytes)
+    }
+
+    fn store(&mut self, address: u64, bytes: &[u8]) -> io::Result<()> {
+        if bytes.is_empty() {
+            return Ok(());
+        }
+        self.send([6, address, bytes.len() as u64])?;
+        self.stream.write_all(bytes)
+    }
+
+    /// Numbers as in Linux, `include/uapi/linux/usbdevice_fs.h`.
+    fn ioctl(&mut self, request: u32, argument: u64) -> Answer {
+        match request {
+            // GET_CAPABILITIES
+            0x8004_551A => self.store(argument, &0x3D_u32.to_ne_bytes()).map(|()| DONE),
+            // CLAIM, RELEASE, CLEAR_HALT, RESET, RESETEP, SETINTERFACE, SETCONFIGURATION, DISCONNECT_CLAIM
+            0x8004_550F | 0x8004_5510 | 0x8004_5515 | 0x5514 | 0x8004_5503 | 0x8008_5504 | 0x8004_5505
+            | 0x8108_551B => Ok(DONE),
+            // GETDRIVER
+            0x4104_5508 => Ok(refuse(libc::ENODATA)),
+            0x8038_550A => self.submit(argument),
+            0x550B => self.discard(argument),
+            0x4008_550C | 0x4008_550D => self.reap(argument),
+            _ => Ok(refuse(libc::ENOTTY)),
+        }
+    }
+
+    fn submit(&mut self, address: u64) -> Answer {
+        let raw = self.fetch(address, 56)?;
+        let word = |at: usize| u64::from_ne_bytes(std::array::from_fn(|k| raw[at + k]));
+        let urb =
+            Urb { address, endpoint: raw[1], buffer: word(16), length: (word(24) & 0xFFFF_FFFF) as usize };
+        let now = self.side.now();
+        if self.side.falcon.lock().unwrap().modem_status(now) == Err(LinkError::Unplugged) {
+            return Ok(refuse(libc::ENODEV));
+        }
+        match (raw[0], urb.endpoint & 0x80) {
+            (2, _) => self.control(urb)?,
+            (_, 0) => {
+                let bytes = self.fetch(urb.buffer, urb.length)?;
+                let written = self.side.falcon.lock().unwrap().write(&bytes, now);
+                self.end(urb, status(&written), bytes.len());
+            }
+            _ => self.pending.push_back(urb),
+        }
+        Ok(DONE)
+    }
+
+    fn end(&mut self, urb: Urb, status: i32, length: usize) {
+        self.ended.push_back((urb, status, length));
+        self.side.gate.lock().unwrap().set(true);
+    }
+
+    fn control(&mut self, urb: Urb) -> io::Result<()> {
+        let setup = self.fetch(urb.buffer, 8)?;
+        let (kind, number, value) = (setup[0], setup[1], u16::from_le_bytes([setup[2], setup[3]]));
+        let room = usize::from(u16::from_le_bytes([setup[6], setup[7]]));
+        let now = self.side.now();
+        let mut falcon = self.side.falcon.lock().unwrap();
+        let answer = match (kind, number) {
+            (0x40, _) => falcon.control(number, value, now).map(|()| Vec::new()),
+            (0xC0, 5) => falcon.modem_status(now).map(|status| vec![status, 0x60]),
+            (0x80, 6) if value >> 8 == 3 => Ok(string(value as u8)),
+            _ => Err(LinkError::Stalled),
+        };
+        drop(falcon);
+        let bytes = answer.clone().unwrap_or_default();
+        let bytes = &bytes[..bytes.len().min(room)];
+        self.store(urb.buffer + 8, bytes)?;
+        self.end(urb, status(&answer), bytes.len());
+        Ok(())
+    }
+
+    fn discard(&mut self, address: u64) -> Answer {
+        let Some(at) = self.pending.iter().position(|urb| urb.address == address) else {
+            return Ok(refuse(libc::EINVAL));
+        };
+        if let Some(urb) = self.pending.remove(at) {
+            self.end(urb, -libc::ENOENT, 0);
+        }
+        Ok(DONE)
+    }
+
+    fn reap(&mut self, argument: u64) -> Answer {
+        if self.ended.is_empty() {
+            self.take_packet()?;
+        }
+        let Some((urb, status, length)) = self.ended.pop_front() else {
+            self.side.gate.lock().unwrap().set(false);
+            return Ok(refuse(libc::EAGAIN));
+        };
+        self.store(urb.address + 4, &status.to_ne_bytes())?;
+        self.store(urb.address + 28, &(length as i32).to_ne_bytes())?;
+        self.store(argument, &urb.address.to_ne_bytes())?;
+        Ok(DONE)
+    }
+
+    /// Ends the oldest waiting transfer, if the device has a packet.
+    fn take_packet(&mut self) -> io::Result<()> {
+        let Some(urb) = self.pending.front().copied() else { return Ok(()) };
+        let mut packet = [0; USB_PACKET_BYTES];
+        let now = self.side.now();
+        let read = self.side.falcon.lock().unwrap().read(&mut packet, now);
+        if read == Ok(None) {
+            return Ok(());
+        }
+        self.pending.pop_front();
+        let (mut status, mut length) = (status(&read), read.ok().flatten().unwrap_or(0));
+        let (nth, every) = (
+            self.side.packets.fetch_add(1, Ordering::AcqRel) + 1,
+            self.side.stalls_every.load(Ordering::Acquire),
+        );
+        if every > 0 && nth % every == 0 {
+            (status, length) = (-libc::EPIPE, 0);
+        }
+        self.store(urb.buffer, &packet[..length])?;
+        self.end(urb, status, length);
+        Ok(())
+    }
+}
+
+fn status<T>(result: &Result<T, LinkError>) -> i32 {
+    match result {
+        Ok(_) => 0,
+        Err(LinkError::Unplugged) => -libc::ESHUTDOWN,
+        Err(_) => -libc::EPIPE,
+    }
+}
+
+/// A string descriptor.
+fn string(index: u8) -> Vec<u8> {
+    if index == 0 {
+        return vec![4, 3, 9, 4];
+    }
+    let text = if index == 3 { SERIAL } else { "FALCON HAPTIC" };
+    let units: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    [&[units.len() as u8 + 2, 3], units.as_slice()].concat()
+}
