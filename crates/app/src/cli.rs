@@ -206,7 +206,7 @@ pub enum FalconCommand {
             long,
             value_name = "X,Y,Z",
             value_delimiter = ',',
-            num_args = 3,
+            required = true,
             allow_negative_numbers = true
         )]
         at: Vec<f64>,
