@@ -156,7 +156,7 @@ fn the_build_says_what_it_has_even_before_the_version() {
         found.unwrap_or_else(|| panic!("no {key} in {info}"))
     };
     assert_eq!((line("version"), line("abi")), (env!("CARGO_PKG_VERSION"), "1"));
-    assert_eq!((line("solvers"), line("couplings")), ("wcsph dfsph muller", "direct momentum"));
+    assert_eq!((line("solvers"), line("couplings")), ("wcsph dfsph muller", "direct momentum local"));
     assert_eq!(
         (line("backends"), line("devices")),
         ("cpu analytic-jet", "null replay hand falcon emulated-falcon")
