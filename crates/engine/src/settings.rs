@@ -435,6 +435,11 @@ const RUN_AND_FLUID: &[Setting<Scene>] = &[
         fluid.max_substeps,
         "Most sub-steps a frame; settings that need more are refused."
     ),
+    flag!(
+        "fluid.sleep",
+        fluid.sleep,
+        "Whether fluid at rest is left out of the computation until something comes near: full mode, without lifetime and repeating sides."
+    ),
     vector!("fluid.gravity", "m/s²", -100.0..=100.0, LIVE, fluid.gravity, "Acceleration of gravity."),
     number!(
         "fluid.restitution",

@@ -89,6 +89,8 @@ pub struct FluidSettings {
     pub two_way: bool,
     /// Most sub-steps in one fluid frame; settings that need more are refused.
     pub max_substeps: usize,
+    /// Whether fluid at rest is left out of the computation until something comes near.
+    pub sleep: bool,
 }
 
 impl Default for FluidSettings {
@@ -120,6 +122,7 @@ impl Default for FluidSettings {
             restitution: 0.0,
             two_way: true,
             max_substeps: 2000,
+            sleep: false,
         }
     }
 }

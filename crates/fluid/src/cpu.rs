@@ -14,6 +14,7 @@ use crate::particles::{Newborn, Particles};
 use crate::periodic::Periodic;
 use crate::restack::restack;
 use crate::rigid::Rigid;
+use crate::sleep::{Around, Sleepers};
 use crate::solids::{Meeting, Solids, Walls};
 use crate::solver::dfsph::{Dfsph, Solves, Surroundings};
 use crate::solver::muller::Muller;
@@ -74,6 +75,7 @@ impl CpuBackend {
 impl CpuBackend {
     /// Gives each particle the velocity (m/s) that `flow` has at its place: a start from a known flow.
     pub fn set_flow(&mut self, flow: impl Fn(DVec3) -> DVec3) {
+        self.fluid.sleepers.wake_all(&mut self.fluid.particles);
         let p = &mut self.fluid.particles;
         for i in 0..p.len() {
             let velocity = flow(p.position(i).as_dvec3()).as_vec3();
@@ -98,13 +100,15 @@ impl FluidBackend for CpuBackend {
     fn configure(&mut self, config: &FluidConfig) -> Result<(), FluidError> {
         config.check()?;
         let Self { pool, fluid, config: old, .. } = self;
-        pools::check_spacing(&fluid.particles, old.settings.spacing, config)?;
+        let count = fluid.particles.len() + fluid.sleepers.count();
+        pools::check_spacing(count, old.settings.spacing, config)?;
         pool.install(|| fluid.adapt(old, config));
         self.config = config.clone();
         Ok(())
     }
 
     fn submit(&mut self, frame: &FrameInput<'_>) {
+        self.fluid.wake(&self.config, frame);
         let steps = self.fluid.substeps(&self.config, frame);
         self.submit_in(frame, steps);
     }
@@ -144,6 +148,7 @@ struct Fluid {
     plane: WallTable,
     tables: BodyTables,
     rigid: Rigid,
+    sleepers: Sleepers,
     time: f64,
     substep: u64,
     max_speed: f32,
@@ -201,6 +206,7 @@ impl Fluid {
             plane: WallTable::plane(config.settings.kernel_in_use(), support),
             tables: BodyTables::new(&config.world.bodies, config.settings.kernel_in_use(), support),
             rigid: Rigid::default(),
+            sleepers: Sleepers::default(),
             time: 0.0,
             substep: 0,
             max_speed: 0.0,
@@ -226,6 +232,7 @@ impl Fluid {
 
     /// Takes new settings over without losing the fluid.
     fn adapt(&mut self, old: &FluidConfig, new: &FluidConfig) {
+        self.sleepers.wake_all(&mut self.particles);
         self.method = Method::new(new);
         self.tension = Tension::new(new);
         self.viscosity = Viscosity::new(new);
@@ -271,8 +278,33 @@ impl Fluid {
         let seen = f64::from(self.max_speed).max(self.tool_speed(frame));
         let speed = limits::expected_speed(config, seen, frame.duration);
         let needed = limits::substeps(config, frame.duration, speed);
-        // A frame of no length changes nothing.
-        if frame.duration > 0.0 { needed.min(config.settings.max_substeps) } else { 0 }
+        match frame.duration {
+            // Bodies alone go their ways in one.
+            length if length > 0.0 && self.is_empty(config) => 1,
+            length if length > 0.0 => needed.min(config.settings.max_substeps),
+            // A frame of no length changes nothing.
+            _ => 0,
+        }
+    }
+
+    /// Whether there is nothing to be stepped but bodies that are led, nor will there be.
+    fn is_empty(&self, config: &FluidConfig) -> bool {
+        let fed = config.world.sources.iter().any(|source| source.on);
+        self.particles.len() == 0 && !fed && !self.bodies.iter().any(Body::is_free)
+    }
+
+    /// Wakes what `frame` may touch.
+    fn wake(&mut self, config: &FluidConfig, frame: &FrameInput<'_>) {
+        let reach = self.reach(config, frame);
+        let around = Around { config, bodies: &self.bodies, motions: frame.bodies };
+        let woken = self.sleepers.wake(&mut self.particles, &around, reach);
+        self.max_speed = self.max_speed.max(woken);
+    }
+
+    /// Farthest that anything awake may go in `frame`, m.
+    fn reach(&self, config: &FluidConfig, frame: &FrameInput<'_>) -> f64 {
+        let fall = config.settings.gravity.length() * frame.duration;
+        (f64::from(self.max_speed).max(self.tool_speed(frame)) + fall) * frame.duration
     }
 
     fn frame(
@@ -293,7 +325,7 @@ impl Fluid {
             output.iterations += self.solves.iterations;
             output.max_speed = output.max_speed.max(f64::from(self.max_speed));
         }
-        self.finish(frame, steps, output);
+        self.finish(config, frame, steps, output);
     }
 
     fn begin(&mut self, frame: &FrameInput<'_>, output: &mut FrameOutput) {
@@ -307,15 +339,26 @@ impl Fluid {
         output.loads.resize(self.bodies.len(), BodyLoad::default());
     }
 
-    fn finish(&mut self, frame: &FrameInput<'_>, steps: usize, output: &mut FrameOutput) {
+    fn finish(
+        &mut self,
+        config: &FluidConfig,
+        frame: &FrameInput<'_>,
+        steps: usize,
+        output: &mut FrameOutput,
+    ) {
         self.particles.drop_images();
         for (body, motion) in self.bodies.iter_mut().zip(frame.bodies) {
             body.end_frame(motion);
         }
+        let reach = self.reach(config, frame);
+        let around = Around { config, bodies: &self.bodies, motions: frame.bodies };
+        self.sleepers.look(&mut self.particles, &around, &output.loads, frame.duration);
+        // What would wake at once is better left awake.
+        self.sleepers.wake(&mut self.particles, &around, reach);
         output.bodies.clear();
         output.bodies.extend(self.bodies.iter().map(|b| b.state));
         output.time = self.time;
-        output.particles = self.particles.len();
+        output.particles = self.particles.len() + self.sleepers.count();
         output.substeps = steps;
         output.degraded = self.degraded;
     }
@@ -360,6 +403,7 @@ impl Fluid {
         self.now.clear();
         self.now.extend(self.bodies.iter().map(|b| BodyNow::new(b, margin, self.periodic)));
         self.step_loads.fill(BodyLoad::default());
+        self.sleepers.load(&mut self.step_loads);
         self.solves.rest();
         if self.interacts(config.settings.mode) {
             // In mixed mode a sub-step with forces gives the push of the next one too.
@@ -404,7 +448,8 @@ impl Fluid {
     fn emit(&mut self, config: &FluidConfig, dt: f64) {
         let spacing = config.settings.spacing;
         self.newborn.clear();
-        let room = config.settings.max_particles.saturating_sub(self.particles.count());
+        let room =
+            config.settings.max_particles.saturating_sub(self.particles.count() + self.sleepers.count());
         for (emitter, source) in self.emitters.iter_mut().zip(&config.world.sources) {
             emitter.emit(source, spacing, self.time, dt, room, &mut self.newborn);
         }
@@ -576,18 +621,18 @@ impl Fluid {
     }
 
     fn snapshot(&self, config: &FluidConfig, view: &mut ParticleView) {
-        let p = &self.particles;
-        let n = p.len();
-        let density = config.settings.rest_density as f32;
         view.positions.clear();
-        view.positions.extend((0..n).map(|i| p.position(i).to_array()));
         view.velocities.clear();
-        view.velocities.extend((0..n).map(|i| p.velocity(i).to_array()));
         view.ids.clear();
-        view.ids.extend_from_slice(&p.id[..n]);
         view.pressures.clear();
-        let scale = if self.meets_walls() { density } else { 1.0 };
-        view.pressures.extend(p.p[..n].iter().map(|&p| p * scale));
+        let scale = if self.meets_walls() { config.settings.rest_density as f32 } else { 1.0 };
+        for p in std::iter::once(&self.particles).chain(self.sleepers.each()) {
+            let n = p.len();
+            view.positions.extend((0..n).map(|i| p.position(i).to_array()));
+            view.velocities.extend((0..n).map(|i| p.velocity(i).to_array()));
+            view.ids.extend_from_slice(&p.id[..n]);
+            view.pressures.extend(p.p[..n].iter().map(|&p| p * scale));
+        }
     }
 }
 

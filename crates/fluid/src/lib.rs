@@ -34,6 +34,7 @@ mod pools;
 mod restack;
 mod rigid;
 mod shape;
+mod sleep;
 mod solids;
 mod solver;
 mod surroundings;

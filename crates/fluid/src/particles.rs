@@ -134,6 +134,20 @@ impl Particles {
         self.pad();
     }
 
+    /// Adds all of `others` at the end, as they are; the next sort puts them in place.
+    pub fn append(&mut self, others: &Self) {
+        let len = self.len;
+        let mut others_too = others.clone();
+        for (column, other) in self.columns().into_iter().zip(others_too.columns()) {
+            column.truncate(len);
+            column.extend_from_slice(&other[..others.len]);
+        }
+        self.id.truncate(len);
+        self.id.extend_from_slice(&others.id[..others.len]);
+        self.len += others.len;
+        self.pad();
+    }
+
     /// Replaces all particles; numbers are never used again.
     pub fn replace(&mut self, newborn: &[Newborn]) {
         self.len = 0;

@@ -53,16 +53,12 @@ fn check_count(wanted: f64, config: &FluidConfig) -> Result<(), FluidError> {
     if needed > allowed { Err(FluidError::TooManyParticles { needed, allowed }) } else { Ok(()) }
 }
 
-/// Refuses a spacing at which the same fluid would be more particles than there may be.
-pub(crate) fn check_spacing(
-    old: &Particles,
-    old_spacing: f64,
-    config: &FluidConfig,
-) -> Result<(), FluidError> {
+/// Refuses a spacing at which a fluid of `count` particles would be more particles than there may be.
+pub(crate) fn check_spacing(count: usize, old_spacing: f64, config: &FluidConfig) -> Result<(), FluidError> {
     if config.settings.spacing >= old_spacing {
         return Ok(());
     }
-    check_count((old.len() as f64 * (old_spacing / config.settings.spacing).powi(3)).round(), config)
+    check_count((count as f64 * (old_spacing / config.settings.spacing).powi(3)).round(), config)
 }
 
 /// Points along each axis and their distances.
