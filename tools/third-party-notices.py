@@ -27,6 +27,7 @@ PLATFORMS = (
 TAKEN = {
     "MIT": "Permission is hereby granted, free of charge",
     "Apache-2.0": "Apache License",
+    "ISC": "Permission to use, copy, modify, and/or distribute this software",
     "Unicode-3.0": "UNICODE LICENSE V3",
 }
 LICENCE_FILE = re.compile(r"(?i)^(un)?(licen[cs]e|copying|copyright|notice)")

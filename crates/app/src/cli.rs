@@ -66,7 +66,7 @@ pub struct RunArgs {
     /// Simulated seconds; the scene's own if left out.
     #[arg(long, value_name = "S")]
     pub duration: Option<f64>,
-    /// What moves the tool: hand, replay, null, falcon, emulated-falcon; auto takes the first real one that is there, else
+    /// What moves the tool, by a name of `hapflow devices`; auto takes the first real one that is there, else
     /// the hand. A real device runs in real time.
     #[arg(long, value_name = "NAME", conflicts_with = "motion")]
     pub device: Option<String>,

@@ -86,9 +86,10 @@ impl From<Code> for Failure {
 fn of_device(error: &DeviceError) -> Code {
     match error {
         DeviceError::Unknown { .. } => Code::ERROR_NOT_FOUND,
-        DeviceError::Unavailable { .. } | DeviceError::Lost { .. } | DeviceError::Closed { .. } => {
-            Code::ERROR_DEVICE
-        }
+        DeviceError::Unavailable { .. }
+        | DeviceError::Refused { .. }
+        | DeviceError::Lost { .. }
+        | DeviceError::Closed { .. } => Code::ERROR_DEVICE,
         DeviceError::Falcon(FalconError::Firmware(_) | FalconError::Geometry(_)) => Code::ERROR_VALUE,
         DeviceError::Falcon(_) => Code::ERROR_DEVICE,
         DeviceError::Setting(_) => Code::ERROR_VALUE,

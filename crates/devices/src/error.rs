@@ -25,6 +25,16 @@ pub enum DeviceError {
         /// What a person can do.
         remedy: &'static str,
     },
+    /// The device, or its maker's library, refuses to be opened.
+    #[error("{device} cannot be opened, {cause}: {remedy}")]
+    Refused {
+        /// Its name.
+        device: &'static str,
+        /// What it says.
+        cause: String,
+        /// What a person can do.
+        remedy: &'static str,
+    },
     /// The device answered once but does not any more.
     #[error("{device} does not answer any more, {cause}: {remedy}")]
     Lost {

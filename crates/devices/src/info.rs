@@ -1,7 +1,9 @@
 //! Which devices there are.
 
 use crate::falcon::{self, FalconError};
+use crate::sdk::{ForceDimension, OpenHaptics};
 use crate::{DeviceError, HandSettings};
+use glam::DVec3;
 
 /// What a person needs to know to choose a device.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +44,15 @@ impl DeviceInfo {
                 let serial = first.serial.clone()?;
                 Ok(format!("{} plugged in, the first with serial number \"{serial}\"", found.len()))
             }
+            "force-dimension" => match ForceDimension::count()? {
+                0 => Err(DeviceError::Unavailable {
+                    device: self.name,
+                    cause: "its library finds none",
+                    remedy: "check its cable and supply",
+                }),
+                count => Ok(format!("{count} plugged in")),
+            },
+            "touch" => OpenHaptics::open(DVec3::ZERO).map(|_| "it answers".into()),
             _ => Ok("always there".into()),
         }
     }
@@ -99,7 +110,30 @@ pub const EMULATED_FALCON: DeviceInfo = DeviceInfo {
     ..FALCON
 };
 
-const DEVICES: [DeviceInfo; 5] = [NULL, REPLAY, HAND, FALCON, EMULATED_FALCON];
+/// A device of Force Dimension; the numbers are those of its smallest, the omega.3.
+pub const FORCE_DIMENSION: DeviceInfo = DeviceInfo {
+    name: "force-dimension",
+    about: "an omega, delta or sigma of Force Dimension, or a Falcon on Windows, by its maker's library",
+    driven_dof: 3,
+    max_force_n: 12.0,
+    max_stiffness_n_per_m: 14_500.0,
+    workspace_m: [0.16, 0.16, 0.11],
+    hardware: true,
+    ..NULL
+};
+
+/// A device of 3D Systems; the numbers are those of the Touch.
+pub const TOUCH: DeviceInfo = DeviceInfo {
+    name: "touch",
+    about: "a Touch of 3D Systems (formerly Phantom Omni), by its maker's library OpenHaptics",
+    driven_dof: 3,
+    max_force_n: 3.3,
+    workspace_m: [0.16, 0.12, 0.07],
+    hardware: true,
+    ..NULL
+};
+
+const DEVICES: [DeviceInfo; 7] = [NULL, REPLAY, HAND, FALCON, EMULATED_FALCON, FORCE_DIMENSION, TOUCH];
 
 /// Every device that this build knows. Allocates.
 pub fn list() -> Vec<DeviceInfo> {
@@ -139,7 +173,7 @@ mod tests {
         let error = find("falcn").unwrap_err().to_string();
         assert_eq!(
             error,
-            "unknown device \"falcn\": choose one of null, replay, hand, falcon, emulated-falcon"
+            "unknown device \"falcn\": choose one of null, replay, hand, falcon, emulated-falcon, force-dimension, touch"
         );
     }
 }

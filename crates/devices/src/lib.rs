@@ -24,13 +24,17 @@ mod null;
 mod path_point;
 mod replay;
 mod script;
+pub mod sdk;
 
 pub use at_end::AtEnd;
 pub use device::{HapticDevice, Pacing};
 pub use error::DeviceError;
 pub use hand::SimulatedHand;
 pub use hand_settings::{HandPreset, HandSettings};
-pub use info::{DeviceInfo, EMULATED_FALCON, FALCON, HAND, NULL, REPLAY, find, first_present, list};
+pub use info::{
+    DeviceInfo, EMULATED_FALCON, FALCON, FORCE_DIMENSION, HAND, NULL, REPLAY, TOUCH, find, first_present,
+    list,
+};
 pub use motion::{Motion, MotionSample};
 pub use motion_csv::{MAX_SAMPLES, MotionError};
 pub use null::NullDevice;

@@ -33,6 +33,10 @@ pub enum DeviceKind {
     Falcon,
     /// A Falcon that is emulated down to USB transfers, in a hand that does as the scene's script says.
     EmulatedFalcon,
+    /// A device of Force Dimension, by its maker's library.
+    ForceDimension,
+    /// A device of 3D Systems, by its maker's library.
+    Touch,
 }
 
 /// Which Falcon, and how.
@@ -345,6 +349,8 @@ impl Scene {
             DeviceKind::Null => hapflow_devices::NULL,
             DeviceKind::Falcon => hapflow_devices::FALCON,
             DeviceKind::EmulatedFalcon => hapflow_devices::EMULATED_FALCON,
+            DeviceKind::ForceDimension => hapflow_devices::FORCE_DIMENSION,
+            DeviceKind::Touch => hapflow_devices::TOUCH,
         }
     }
 

@@ -7,6 +7,7 @@ use hapflow_devices::falcon::{
     self, EmulatedFalcon, EmulatedHand, EmulatedTransport, Falcon, FalconError, FalconOptions, Firmware,
     Geometry, Kinematics, Transport, Trouble,
 };
+use hapflow_devices::sdk::{ForceDimension, OpenHaptics};
 use hapflow_devices::{
     AtEnd, DeviceError, HapticDevice, Motion, NullDevice, Replay, Segment, SimulatedHand, TargetScript,
 };
@@ -62,6 +63,8 @@ pub fn open_device_on(scene: &Scene, clock: &Arc<dyn Clock>) -> Result<Box<dyn H
             let transport = emulated_falcon(&options, &script, Arc::clone(clock))?;
             Box::new(Falcon::new(transport, options)?)
         }
+        DeviceKind::ForceDimension => Box::new(ForceDimension::open(start)?),
+        DeviceKind::Touch => Box::new(OpenHaptics::open(start)?),
     })
 }
 
