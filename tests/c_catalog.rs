@@ -159,7 +159,7 @@ fn the_build_says_what_it_has_even_before_the_version() {
     assert_eq!((line("solvers"), line("couplings")), ("wcsph dfsph muller", "direct momentum local"));
     assert_eq!(
         (line("backends"), line("devices")),
-        ("cpu analytic-jet", "null replay hand falcon emulated-falcon force-dimension touch")
+        ("cpu analytic-jet", "null replay hand falcon emulated-falcon force-dimension touch spacemouse")
     );
     assert!(line("scenes").starts_with("tap ") && line("target").contains(std::env::consts::ARCH));
     assert!(!line("features").contains("test-hooks"));

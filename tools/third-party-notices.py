@@ -41,6 +41,11 @@ BUNDLED = {
         " crate libusb1-sys; with hapflow's own source, which is public, a program with another libusb can be built."
         " `cargo build --no-default-features -p hapflow-app` leaves it out",
     ),
+    "hidapi": (
+        "hidapi",
+        "etc/hidapi/LICENSE-bsd.txt",
+        "BSD-3-Clause, Copyright Alan Ott and Signal 11 Software, <https://github.com/libusb/hidapi>; on Windows and macOS",
+    ),
 }
 COPYRIGHT = re.compile(r"copyright (\(c\)|©|\d{4})(?!.*\byyyy\b).*", re.IGNORECASE)
 
@@ -222,7 +227,7 @@ def main():
     for crate in (c for c in crates if c["name"] in BUNDLED):
         name, licence, terms = BUNDLED[crate["name"]]
         text = (Path(crate["manifest_path"]).parent / licence).read_text()
-        parts += [f"## {name}, in C\n", f"Inside the program `hapflow`, and in `libhapflow` where it was built with the feature `falcon`: {terms}.\n", fence(text)]
+        parts += [f"## {name}, in C\n", f"Inside the program `hapflow`, and in `libhapflow` where it was built with the feature `falcon` or `hid`: {terms}.\n", fence(text)]
     if printed_whole:
         parts.append("## Printed whole\n")
         parts += [f"### {title}\n\n{fence(text)}" for title, text in printed_whole]

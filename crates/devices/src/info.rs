@@ -1,6 +1,7 @@
 //! Which devices there are.
 
 use crate::falcon::{self, FalconError};
+use crate::hid::SpaceMouse;
 use crate::sdk::{ForceDimension, OpenHaptics};
 use crate::{DeviceError, HandSettings};
 use glam::DVec3;
@@ -53,6 +54,7 @@ impl DeviceInfo {
                 count => Ok(format!("{count} plugged in")),
             },
             "touch" => OpenHaptics::open(DVec3::ZERO).map(|_| "it answers".into()),
+            "spacemouse" => SpaceMouse::open(DVec3::ZERO).map(|_| "plugged in".into()),
             _ => Ok("always there".into()),
         }
     }
@@ -133,7 +135,18 @@ pub const TOUCH: DeviceInfo = DeviceInfo {
     ..NULL
 };
 
-const DEVICES: [DeviceInfo; 7] = [NULL, REPLAY, HAND, FALCON, EMULATED_FALCON, FORCE_DIMENSION, TOUCH];
+/// A SpaceMouse.
+pub const SPACE_MOUSE: DeviceInfo = DeviceInfo {
+    name: "spacemouse",
+    about: "a SpaceMouse of 3Dconnexion, whose cap moves the tool; no force",
+    sensed_dof: 6,
+    workspace_m: [2.0 * SpaceMouse::REACH_M; 3],
+    hardware: true,
+    ..NULL
+};
+
+const DEVICES: [DeviceInfo; 8] =
+    [NULL, REPLAY, HAND, FALCON, EMULATED_FALCON, FORCE_DIMENSION, TOUCH, SPACE_MOUSE];
 
 /// Every device that this build knows. Allocates.
 pub fn list() -> Vec<DeviceInfo> {
@@ -173,7 +186,7 @@ mod tests {
         let error = find("falcn").unwrap_err().to_string();
         assert_eq!(
             error,
-            "unknown device \"falcn\": choose one of null, replay, hand, falcon, emulated-falcon, force-dimension, touch"
+            "unknown device \"falcn\": choose one of null, replay, hand, falcon, emulated-falcon, force-dimension, touch, spacemouse"
         );
     }
 }

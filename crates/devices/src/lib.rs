@@ -1,10 +1,13 @@
-//! Haptic devices of hapflow: null, replay and a simulated hand.
+//! Haptic devices of hapflow, simulated and real.
 //!
 //! | device | moves | feels |
 //! |---|---|---|
 //! | [`NullDevice`] | not at all | nothing |
 //! | [`Replay`] | along a recorded [`Motion`] | nothing |
 //! | [`SimulatedHand`] | as a hand that follows a [`TargetScript`] | the force: it is a mass on a spring and damper |
+//! | [`falcon::Falcon`] | as a hand moves it | the force |
+//! | [`sdk::ForceDimension`], [`sdk::OpenHaptics`] | as a hand moves it | the force |
+//! | [`hid::SpaceMouse`] | as its cap is deflected | nothing |
 //!
 //! All of them speak [`HapticDevice`]. SI units, f64, right-handed, y up. Reading and writing allocates
 //! nothing; building a device may.
@@ -16,6 +19,7 @@ mod error;
 pub mod falcon;
 mod hand;
 mod hand_settings;
+pub mod hid;
 mod info;
 mod mass;
 mod motion;
@@ -32,8 +36,8 @@ pub use error::DeviceError;
 pub use hand::SimulatedHand;
 pub use hand_settings::{HandPreset, HandSettings};
 pub use info::{
-    DeviceInfo, EMULATED_FALCON, FALCON, FORCE_DIMENSION, HAND, NULL, REPLAY, TOUCH, find, first_present,
-    list,
+    DeviceInfo, EMULATED_FALCON, FALCON, FORCE_DIMENSION, HAND, NULL, REPLAY, SPACE_MOUSE, TOUCH, find,
+    first_present, list,
 };
 pub use motion::{Motion, MotionSample};
 pub use motion_csv::{MAX_SAMPLES, MotionError};

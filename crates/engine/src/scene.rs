@@ -37,6 +37,8 @@ pub enum DeviceKind {
     ForceDimension,
     /// A device of 3D Systems, by its maker's library.
     Touch,
+    /// A SpaceMouse of 3Dconnexion.
+    SpaceMouse,
 }
 
 /// Which Falcon, and how.
@@ -351,6 +353,7 @@ impl Scene {
             DeviceKind::EmulatedFalcon => hapflow_devices::EMULATED_FALCON,
             DeviceKind::ForceDimension => hapflow_devices::FORCE_DIMENSION,
             DeviceKind::Touch => hapflow_devices::TOUCH,
+            DeviceKind::SpaceMouse => hapflow_devices::SPACE_MOUSE,
         }
     }
 

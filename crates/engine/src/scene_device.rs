@@ -7,6 +7,7 @@ use hapflow_devices::falcon::{
     self, EmulatedFalcon, EmulatedHand, EmulatedTransport, Falcon, FalconError, FalconOptions, Firmware,
     Geometry, Kinematics, Transport, Trouble,
 };
+use hapflow_devices::hid::SpaceMouse;
 use hapflow_devices::sdk::{ForceDimension, OpenHaptics};
 use hapflow_devices::{
     AtEnd, DeviceError, HapticDevice, Motion, NullDevice, Replay, Segment, SimulatedHand, TargetScript,
@@ -65,6 +66,7 @@ pub fn open_device_on(scene: &Scene, clock: &Arc<dyn Clock>) -> Result<Box<dyn H
         }
         DeviceKind::ForceDimension => Box::new(ForceDimension::open(start)?),
         DeviceKind::Touch => Box::new(OpenHaptics::open(start)?),
+        DeviceKind::SpaceMouse => Box::new(SpaceMouse::open(start)?),
     })
 }
 

@@ -259,7 +259,7 @@ const RUN_AND_FLUID: &[Setting<Scene>] = &[
         set: set_filter,
     },
     choice!("run.backend", FIXED, run.backend, ["cpu" => BackendKind::Cpu, "analytic-jet" => BackendKind::AnalyticJet], "Who computes the fluid: particles on the CPU, or jets in closed form."),
-    choice!("run.device", FIXED, run.device, ["hand" => DeviceKind::Hand, "replay" => DeviceKind::Replay, "null" => DeviceKind::Null, "falcon" => DeviceKind::Falcon, "emulated-falcon" => DeviceKind::EmulatedFalcon, "force-dimension" => DeviceKind::ForceDimension, "touch" => DeviceKind::Touch], "What moves the tool: a simulated hand, a recorded motion, nothing, or a device; `hapflow devices` says more."),
+    choice!("run.device", FIXED, run.device, ["hand" => DeviceKind::Hand, "replay" => DeviceKind::Replay, "null" => DeviceKind::Null, "falcon" => DeviceKind::Falcon, "emulated-falcon" => DeviceKind::EmulatedFalcon, "force-dimension" => DeviceKind::ForceDimension, "touch" => DeviceKind::Touch, "spacemouse" => DeviceKind::SpaceMouse], "What moves the tool: a simulated hand, a recorded motion, nothing, or a device; `hapflow devices` says more."),
     text!(
         "run.motion",
         run.motion,
