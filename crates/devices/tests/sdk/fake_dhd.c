@@ -1,7 +1,7 @@
 /* A stand-in for libdhd: one device, whose state a test sets and whose force it looks at. */
 static int plugged = 1, opened, enabled, force_when_enabled = -1;
 static double position[3], force[3];
-static unsigned buttons, watchdog;
+static unsigned buttons, watchdog, since; /* since: times 125 us since the last force */
 
 int fake_set(int is_plugged, double x, double y, double z, unsigned mask) {
     plugged = is_plugged;
@@ -14,6 +14,13 @@ int fake_set(int is_plugged, double x, double y, double z, unsigned mask) {
 int fake_get(double *out) {
     for (int n = 0; n < 3; n++) out[n] = force[n];
     out[3] = enabled, out[4] = opened, out[5] = force_when_enabled, out[6] = watchdog;
+    return 0;
+}
+
+/* A millisecond passes: the watchdog may take the force off. */
+int fake_pass(void) {
+    since += 8;
+    if (watchdog && since > watchdog) force[0] = force[1] = force[2] = 0;
     return 0;
 }
 
@@ -31,7 +38,7 @@ int dhdGetPosition(double *x, double *y, double *z, char id) {
 }
 int dhdSetForce(double x, double y, double z, char id) {
     if (!plugged || id != 0) return -1;
-    force[0] = x, force[1] = y, force[2] = z;
+    force[0] = x, force[1] = y, force[2] = z, since = 0;
     return 2; /* a remark: a motor is saturated */
 }
 unsigned dhdGetButtonMask(char id) { return id == 0 ? buttons : 0; }
