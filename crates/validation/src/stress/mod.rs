@@ -1,9 +1,9 @@
 //! Steadiness: random scenes that are shaken by all means, and what must hold whatever is asked.
 //!
-//! A trial draws a scene ([`scenery`]) with settings from the whole of their ranges, moves its bodies as no hand would
-//! ([`motion`]), changes whatever may be changed while it runs, and asks for frames from 0.1 to 100 ms. After each frame
-//! the [`judge`] looks: all finite, nobody outside the container, density, speed, energy and force within bounds that follow
-//! from what was put in ([`ledger`]). Settings outside their ranges must be refused.
+//! A trial draws a scene (`scenery.rs`) with settings from the whole of their ranges, moves its bodies as no hand would
+//! (`motion.rs`), changes whatever may be changed while it runs, and asks for frames from 0.1 to 100 ms. After each frame
+//! the `judge.rs` looks: all finite, nobody outside the container, density, speed, energy and force within bounds that follow
+//! from what was put in (`ledger.rs`). Settings outside their ranges must be refused.
 
 mod crowd;
 mod dice;
