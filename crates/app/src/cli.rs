@@ -29,6 +29,7 @@ Examples:
   hapflow scenes --settings                   every setting with its unit, range and default
   hapflow validate jet-plate --set speed=2    the fluid's forces against their known answers
   hapflow stress --trials 2000                shake random scenes, and say what does not hold
+  hapflow bench skip                          what is paid for what is not used
   hapflow doctor                              check this machine, and say what to do";
 
 /// The commands.
@@ -44,6 +45,8 @@ pub enum Command {
     Validate(ValidateArgs),
     /// Shake random scenes by all means, and say what does not hold: all finite, nobody lost, speed, energy and force bounded.
     Stress(StressArgs),
+    /// Measure what the fluid costs, by ratios within one run.
+    Bench(BenchArgs),
     /// The Novint Falcon: find, load, home and test it, and its mathematics on files.
     #[command(subcommand)]
     Falcon(FalconCommand),
@@ -270,6 +273,48 @@ pub struct GeometryArgs {
     /// Motor counts a newton metre, in place of the geometry's own.
     #[arg(long, value_name = "K", allow_negative_numbers = true)]
     pub counts_per_nm: Option<f64>,
+}
+
+/// What is measured.
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// Which benchmark.
+    #[command(subcommand)]
+    pub which: Bench,
+}
+
+/// The benchmarks.
+#[derive(Debug, Subcommand)]
+pub enum Bench {
+    /// What each thing costs where it is used and where it is not, and what sleeps; about two minutes.
+    Skip(BenchFormat),
+    /// Steps of a particle a second, by stage, and their share of what this machine can do; about two minutes.
+    Speed(BenchFormat),
+    /// Error against CPU time for each solver, resolution, tolerance and step, with dated figures of other codes; up to an
+    /// hour.
+    WorkPrecision(WorkPrecisionArgs),
+}
+
+/// Arguments of `bench work-precision`.
+#[derive(Debug, Args)]
+pub struct WorkPrecisionArgs {
+    /// Print one line of JSON for each point instead of the table.
+    #[arg(long)]
+    pub json: bool,
+    /// Draw error against cost of each case, with the fronts.
+    #[arg(long, value_name = "FILE.png")]
+    pub plot: Option<PathBuf>,
+    /// Each case at its coarsest spacing only: a fifth of the time.
+    #[arg(long)]
+    pub quick: bool,
+}
+
+/// How a benchmark tells what it found.
+#[derive(Debug, Args)]
+pub struct BenchFormat {
+    /// Print one line of JSON for each number instead of the table.
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Arguments of `doctor`.

@@ -4,6 +4,7 @@
 //! cannot be used.
 #![forbid(unsafe_code)]
 
+mod bench;
 mod cli;
 mod doctor;
 mod draw;
@@ -43,6 +44,7 @@ fn dispatch(cli: cli::Cli) -> Result<ExitCode, run::Failure> {
         cli::Command::Falcon(command) => falcon::falcon(&command)?,
         cli::Command::Validate(args) if validate::validate(&args)? => {}
         cli::Command::Validate(_) => return Ok(ExitCode::FAILURE),
+        cli::Command::Bench(args) => bench::bench(&args)?,
         cli::Command::Stress(args) if stress::stress(&args)? => {}
         cli::Command::Stress(_) => return Ok(ExitCode::FAILURE),
         cli::Command::Doctor(args) if doctor::doctor(&args) => {}

@@ -296,6 +296,8 @@ fn sample_path(path: &[BodySample], share: f64) -> Option<BodySample> {
 /// A body frozen for one sub-step, in f32, as the particle loops meet it.
 #[derive(Clone, Debug)]
 pub(crate) struct BodyNow {
+    /// Number of the body.
+    pub index: usize,
     pub frame: Frame,
     shape: Shape,
     velocity: Vec3,
@@ -320,9 +322,10 @@ pub(crate) struct Contact {
 }
 
 impl BodyNow {
-    /// `margin`: how far from the surface particles still meet it, m.
-    pub fn new(body: &Body, margin: f64, periodic: Periodic) -> Self {
+    /// Body number `index`; `margin`: how far from the surface particles still meet it, m.
+    pub fn new((index, body): (usize, &Body), margin: f64, periodic: Periodic) -> Self {
         Self {
+            index,
             frame: Frame::new(body.state.position, body.state.orientation),
             shape: body.config.shape.clone(),
             velocity: body.state.velocity.as_vec3(),
@@ -332,6 +335,12 @@ impl BodyNow {
             reach: (body.config.shape.bounding_radius() + margin) as f32,
             periodic,
         }
+    }
+
+    /// Whether it may meet anybody between two corners; across repeating sides it may.
+    pub fn is_near(&self, [low, high]: [Vec3; 2]) -> bool {
+        let middle = self.frame.position;
+        self.periodic.any() || middle.distance(middle.clamp(low, high)) <= self.reach
     }
 
     /// The contact of a particle at `point`, if it is within reach.

@@ -22,8 +22,9 @@ use crate::solver::tension::{Pull, Tension};
 use crate::solver::viscosity::{Room, Viscosity};
 use crate::solver::wcsph::{PACKING_INTERVAL, Rates, Wcsph};
 use crate::solver::{self, Pass, Rows, Scratch};
+use crate::stages::{Stage, StageTimes, Stopwatch};
 use crate::wall::WallTable;
-use crate::{BodyMotion, FluidConfig, InteractionMode, Solver, limits, pools};
+use crate::{BodyConfig, BodyMotion, FluidConfig, InteractionMode, Solver, World, limits, pools};
 use glam::{DVec3, Vec3};
 
 /// Farthest that a particle may go in a sub-step, in spacings: from a quarter behind a wall, where the last stop is, it must
@@ -33,7 +34,8 @@ const LONGEST_WAY: f64 = 0.7;
 /// A fluid on the CPU.
 pub struct CpuBackend {
     config: FluidConfig,
-    pool: rayon::ThreadPool,
+    /// None where there is no fluid and none comes.
+    pool: Option<rayon::ThreadPool>,
     arch: pulp::Arch,
     fluid: Fluid,
     output: FrameOutput,
@@ -54,12 +56,8 @@ impl CpuBackend {
     pub fn new(config: &FluidConfig) -> Result<Self, FluidError> {
         config.check()?;
         let newborn = pools::fill(config)?;
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(config.threads.max(1))
-            .thread_name(|k| format!("hapflow-fluid-{k}"))
-            .build()
-            .map_err(|e| FluidError::Threads(e.to_string()))?;
-        let mut fluid = pool.install(|| Fluid::new(config));
+        let pool = config.world.may_hold_fluid().then(|| threads(config)).transpose()?;
+        let mut fluid = within(pool.as_ref(), || Fluid::new(config));
         fluid.particles.extend(&newborn);
         Ok(Self {
             config: config.clone(),
@@ -69,6 +67,23 @@ impl CpuBackend {
             output: FrameOutput::default(),
             ready: false,
         })
+    }
+}
+
+/// The worker threads of one fluid.
+fn threads(config: &FluidConfig) -> Result<rayon::ThreadPool, FluidError> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(config.threads.max(1))
+        .thread_name(|k| format!("hapflow-fluid-{k}"))
+        .build()
+        .map_err(|e| FluidError::Threads(e.to_string()))
+}
+
+/// Does `work` on the threads of `pool`, if there are any.
+fn within<R: Send>(pool: Option<&rayon::ThreadPool>, work: impl FnOnce() -> R + Send) -> R {
+    match pool {
+        Some(pool) => pool.install(work),
+        None => work(),
     }
 }
 
@@ -83,11 +98,21 @@ impl CpuBackend {
         }
     }
 
+    /// From now on takes the times of the stages.
+    pub fn time_stages(&mut self) {
+        self.fluid.watch.start();
+    }
+
+    /// The times of the stages since [`time_stages`](Self::time_stages).
+    pub fn stage_times(&self) -> StageTimes {
+        self.fluid.watch.times
+    }
+
     /// [`submit`](FluidBackend::submit) in `steps` sub-steps, whatever stability asks for: to measure where it ends.
     pub fn submit_in(&mut self, frame: &FrameInput<'_>, steps: usize) {
         let Self { config, pool, arch, fluid, output, .. } = self;
         let arch = *arch;
-        pool.install(|| fluid.frame(config, arch, (frame, steps), output));
+        within(pool.as_ref(), || fluid.frame(config, arch, (frame, steps), output));
         self.ready = true;
     }
 }
@@ -102,7 +127,10 @@ impl FluidBackend for CpuBackend {
         let Self { pool, fluid, config: old, .. } = self;
         let count = fluid.particles.len() + fluid.sleepers.count();
         pools::check_spacing(count, old.settings.spacing, config)?;
-        pool.install(|| fluid.adapt(old, config));
+        if pool.is_none() && config.world.may_hold_fluid() {
+            *pool = Some(threads(config)?);
+        }
+        within(pool.as_ref(), || fluid.adapt(old, config));
         self.config = config.clone();
         Ok(())
     }
@@ -149,6 +177,7 @@ struct Fluid {
     tables: BodyTables,
     rigid: Rigid,
     sleepers: Sleepers,
+    watch: Stopwatch,
     time: f64,
     substep: u64,
     max_speed: f32,
@@ -204,9 +233,10 @@ impl Fluid {
             walls: Walls::new(&config.world, &config.settings),
             periodic: Periodic::new(&config.world),
             plane: WallTable::plane(config.settings.kernel_in_use(), support),
-            tables: BodyTables::new(&config.world.bodies, config.settings.kernel_in_use(), support),
+            tables: BodyTables::new(bodies_in_fluid(&config.world), config.settings.kernel_in_use(), support),
             rigid: Rigid::default(),
             sleepers: Sleepers::default(),
+            watch: Stopwatch::default(),
             time: 0.0,
             substep: 0,
             max_speed: 0.0,
@@ -246,7 +276,7 @@ impl Fluid {
         if kernels(old) != kernels(new) {
             self.plane = WallTable::plane(kernel, support);
         }
-        self.tables.update(&new.world.bodies, kernel, support);
+        self.tables.update(bodies_in_fluid(&new.world), kernel, support);
         self.walls = Walls::new(&new.world, &new.settings);
         self.periodic = Periodic::new(&new.world);
         let off = |config: &FluidConfig| config.settings.mode == InteractionMode::None;
@@ -264,8 +294,12 @@ impl Fluid {
 
     /// Brings the particles to a new spacing, and spreads those that lie in each other's room.
     fn make_room(&mut self, old_spacing: f64, config: &FluidConfig) {
-        let now: Vec<_> =
-            self.bodies.iter().map(|b| BodyNow::new(b, config.settings.spacing, self.periodic)).collect();
+        let now: Vec<_> = self
+            .bodies
+            .iter()
+            .enumerate()
+            .map(|b| BodyNow::new(b, config.settings.spacing, self.periodic))
+            .collect();
         let solids = Solids { walls: &self.walls, bodies: &now, plane: &self.plane, tables: &self.tables };
         if old_spacing != config.settings.spacing {
             self.particles.replace(&pools::resample(&self.particles, old_spacing, config, &solids));
@@ -393,19 +427,27 @@ impl Fluid {
         motions: &[BodyMotion<'_>],
         share: f64,
     ) {
+        self.watch.begin();
         self.time += step.dt;
         self.emit(config, step.dt);
         for (body, motion) in self.bodies.iter_mut().zip(motions) {
             body.advance(motion, share, step.dt);
         }
-        self.sort(config);
+        // Nothing is looked for where there is nobody.
+        let wet = self.particles.len() > 0;
+        if wet {
+            self.sort(config);
+        }
+        self.watch.lap(Stage::Sort);
         let margin = config.settings.support_length();
         self.now.clear();
-        self.now.extend(self.bodies.iter().map(|b| BodyNow::new(b, margin, self.periodic)));
+        let bodies = self.bodies.iter().enumerate().filter(|_| wet);
+        let bodies = bodies.map(|b| BodyNow::new(b, margin, self.periodic));
+        self.now.extend(bodies.filter(|b| b.is_near(self.grid.corners)));
         self.step_loads.fill(BodyLoad::default());
         self.sleepers.load(&mut self.step_loads);
         self.solves.rest();
-        if self.interacts(config.settings.mode) {
+        if wet && self.interacts(config.settings.mode) {
             // In mixed mode a sub-step with forces gives the push of the next one too.
             let mixed = config.settings.mode == InteractionMode::Mixed;
             self.look_round(config, arch);
@@ -419,6 +461,7 @@ impl Fluid {
             self.rows.clear();
             self.rows.resize(self.particles.len(), [0.0; 4]);
         }
+        self.watch.lap(Stage::Pairs);
         self.integrate(config, step);
         let s = &config.settings;
         let prompt = s.solver == Solver::Dfsph;
@@ -434,6 +477,7 @@ impl Fluid {
             (&medium, step.dt),
         );
         self.bodies.iter_mut().for_each(|body| body.rein(config.highest_speed()));
+        self.watch.lap(Stage::Move);
         self.substep += 1;
     }
 
@@ -498,10 +542,12 @@ impl Fluid {
         let s = &config.settings;
         let (spacing, support) = (s.spacing as f32, s.support_length() as f32);
         self.neighbours.find(arch, &self.grid, &self.particles, spacing, support);
+        self.watch.lap(Stage::Neighbours);
         if self.meets_walls() {
             let solids =
                 Solids { walls: &self.walls, bodies: &self.now, plane: &self.plane, tables: &self.tables };
             self.meetings.find(&self.particles, &solids, support);
+            self.watch.lap(Stage::Walls);
         }
     }
 
@@ -634,6 +680,11 @@ impl Fluid {
             view.pressures.extend(p.p[..n].iter().map(|&p| p * scale));
         }
     }
+}
+
+/// The bodies that fluid may ever meet.
+fn bodies_in_fluid(world: &World) -> &[BodyConfig] {
+    if world.may_hold_fluid() { &world.bodies } else { &[] }
 }
 
 impl Method {

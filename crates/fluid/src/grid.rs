@@ -4,6 +4,7 @@
 //! what lies between two heights of a column is one range. Stable counting sort, so that nothing depends on threads.
 
 use crate::particles::Particles;
+use glam::Vec3;
 use std::ops::Range;
 
 /// Most cells; a wider spread of particles gets larger cells.
@@ -20,6 +21,8 @@ pub(crate) struct Grid {
     /// 1/side of a cell along x, y, z, 1/m.
     inverse: [f32; 3],
     origin: [f32; 3],
+    /// Corners of the box round all particles, m.
+    pub corners: [Vec3; 2],
     /// Cells along x, y, z.
     dims: [usize; 3],
     /// First particle of each cell, and the end of the last. Cells run along y first, then x.
@@ -104,6 +107,7 @@ impl Grid {
         self.width = side[0];
         self.inverse = side.map(|s| 1.0 / s);
         self.origin = low;
+        self.corners = [low, high].map(Vec3::from);
         self.dims = std::array::from_fn(|a| cells(side, a) as usize);
     }
 
@@ -159,7 +163,6 @@ impl Grid {
 mod tests {
     use super::*;
     use crate::particles::Newborn;
-    use glam::Vec3;
 
     fn cloud(n: usize, size: f32) -> Particles {
         let mut seed = 12345_u32;

@@ -59,7 +59,7 @@ impl Kernel {
         match self {
             Self::Wendland => 30.0,
             Self::Cubic => 80.0 / 3.0,
-            Self::LowPass => 6.0 * low_pass_moment(2) / low_pass_moment(4),
+            Self::LowPass => 6.0 * LOW_PASS_SECOND / LOW_PASS_FOURTH,
         }
     }
 
@@ -155,7 +155,7 @@ pub const LOW_PASS: [f64; 7] = [0.3499, -1.8993, 6.9524, -12.3113, 13.4827, -7.4
 pub fn low_pass(r: f64, h: f64) -> f64 {
     let s = (1.0 - (r / h).powi(2)).max(0.0);
     let sum: f64 = (3..).zip(LOW_PASS).map(|(n, a)| a * s.powi(n)).sum();
-    sum / (4.0 * PI * h.powi(3) * low_pass_moment(2))
+    sum / (4.0 * PI * h.powi(3) * LOW_PASS_SECOND)
 }
 
 /// Low-pass kernel derivative over r, (dW/dr)/r, 1/m⁵.
@@ -167,14 +167,27 @@ pub fn low_pass_slope_over_r(r: f64, h: f64) -> f64 {
 
 /// The constant of [`low_pass_slope_over_r`], 1/m⁵.
 pub fn low_pass_gradient_scale(h: f64) -> f64 {
-    2.0 / (4.0 * PI * h.powi(5) * low_pass_moment(2))
+    2.0 / (4.0 * PI * h.powi(5) * LOW_PASS_SECOND)
 }
 
+/// Moments of the low-pass kernel's polynomial: see [`low_pass_moment`].
+const LOW_PASS_SECOND: f64 = low_pass_moment(2);
+const LOW_PASS_FOURTH: f64 = low_pass_moment(4);
+
 /// ∫ q^power Σ a_n (1−q²)ⁿ dq from 0 to 1, for an even power: by parts, each n follows from the one before.
-fn low_pass_moment(power: u32) -> f64 {
-    let half = f64::from(power + 1) / 2.0;
-    let integral = |n: u32| (1..=n).fold(0.5 / half, |i, k| i * f64::from(k) / (f64::from(k) + half));
-    (3..).zip(LOW_PASS).map(|(n, a)| a * integral(n)).sum()
+const fn low_pass_moment(power: u32) -> f64 {
+    let half = (power + 1) as f64 / 2.0;
+    let (mut sum, mut at) = (0.0, 0);
+    while at < LOW_PASS.len() {
+        let (mut integral, mut k) = (0.5 / half, 1);
+        while k <= at + 3 {
+            integral = integral * k as f64 / (k as f64 + half);
+            k += 1;
+        }
+        sum += LOW_PASS[at] * integral;
+        at += 1;
+    }
+    sum
 }
 
 fn lattice_sum(dx: f64, h: f64, term: impl Fn(f64, f64) -> f64) -> f64 {

@@ -22,8 +22,14 @@ pub(crate) fn fill(config: &FluidConfig) -> Result<Vec<Newborn>, FluidError> {
         config.world.pools.iter().map(|b| lattice(b, spacing).0.as_dvec3().element_product()).sum();
     check_count(wanted, config)?;
     let periodic = Periodic::new(&config.world);
-    let bodies: Vec<_> =
-        config.world.bodies.iter().cloned().map(|b| BodyNow::new(&Body::new(b), spacing, periodic)).collect();
+    let bodies: Vec<_> = config
+        .world
+        .bodies
+        .iter()
+        .cloned()
+        .enumerate()
+        .map(|(k, b)| BodyNow::new((k, &Body::new(b)), spacing, periodic))
+        .collect();
     // A pool is a box: a round container takes its corners away.
     let room = CLEARANCE * spacing;
     let cut_off = |p: Vec3| config.world.container.is_some_and(|c| c.cuts_off(p.as_dvec3(), room));

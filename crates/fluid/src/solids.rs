@@ -187,6 +187,7 @@ fn visit_inside(above: f32, sides: &[(f32, Vec3); 4], margin: f32, mut meet: imp
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Solids<'a> {
     pub walls: &'a Walls,
+    /// Those that may be met.
     pub bodies: &'a [BodyNow],
     pub plane: &'a WallTable,
     pub tables: &'a BodyTables,
@@ -213,10 +214,10 @@ impl Solids<'_> {
             let contact = Contact { distance, normal, velocity: Vec3::ZERO, arm: Vec3::ZERO };
             meet(Meeting { contact, body: None, acceleration: Vec3::ZERO, inverse_mass: 0.0, hollow });
         });
-        for (index, body) in self.bodies.iter().enumerate() {
+        for body in self.bodies {
             if let Some(contact) = body.contact(p, margin) {
                 let (acceleration, inverse_mass) = (body.acceleration, body.inverse_mass);
-                meet(Meeting { contact, body: Some(index), acceleration, inverse_mass, hollow: false });
+                meet(Meeting { contact, body: Some(body.index), acceleration, inverse_mass, hollow: false });
             }
         }
     }
@@ -232,7 +233,10 @@ impl Solids<'_> {
         match self.tables.get(index) {
             BodyTable::Distance(table) => table.at(distance),
             BodyTable::Place(map) => {
-                let frame = self.bodies[index].frame;
+                let Some(body) = self.bodies.iter().find(|b| b.index == index) else {
+                    return WallTerms::default();
+                };
+                let frame = body.frame;
                 let (terms, outward) = map.at(frame.to_body_direction(arm));
                 let turned = outward.map(|n| frame.to_scene_direction(n));
                 meeting.contact.normal = turned.unwrap_or(meeting.contact.normal);

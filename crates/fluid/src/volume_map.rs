@@ -190,15 +190,16 @@ const SOLID: WallTerms =
 /// The integrals over the solid cells of one support; `filled` begins at its first corner.
 fn node(filled: &[f32], taps: &[Tap], (kernel, support): (Kernel, f64)) -> Node {
     let (mut volume, mut gradient) = (0.0, Vec3::ZERO);
-    for tap in taps {
-        let share = filled[tap.offset];
+    let solid = taps.iter().map(|tap| (filled[tap.offset], tap)).filter(|(share, _)| *share > 0.0);
+    let solid: Vec<_> = solid.collect();
+    for &(share, tap) in &solid {
         volume += share * tap.value;
         gradient += share * tap.slope * tap.arm;
     }
     let n = -gradient.normalize_or(Vec3::NEG_Y);
     let [mut normal, mut square, mut friction] = [0.0_f32; 3];
-    for tap in taps {
-        let share = filled[tap.offset] * tap.slope;
+    for &(share, tap) in &solid {
+        let share = share * tap.slope;
         let (deep, long) = (-tap.arm.dot(n), tap.arm.length_squared());
         normal += share * deep * deep;
         square += share * long;

@@ -75,7 +75,9 @@ impl WallTable {
     /// `cap(d, s)`: cosine of the cap's opening, seen from the particle, on the shell of radius s.
     fn tabulate(kernel: Kernel, support: f64, cap: impl Fn(f64, f64) -> f64) -> Self {
         let (start, step) = (-0.5 * support, 1.5 * support / CELLS as f64);
-        let terms = (0..=CELLS).map(|k| integrate(kernel, support, start + step * k as f64, &cap)).collect();
+        let (shells, viscous) = (shells(kernel, support), kernel.viscous_factor() / 8.0);
+        let at = |k: usize| integrate(&shells, support, viscous, |s| cap(start + step * k as f64, s));
+        let terms = (0..=CELLS).map(at).collect();
         Self { inverse_step: (1.0 / step) as f32, start: start as f32, terms }
     }
 
@@ -96,18 +98,32 @@ impl WallTable {
     }
 }
 
-fn integrate(kernel: Kernel, support: f64, d: f64, cap: &impl Fn(f64, f64) -> f64) -> WallTerms {
+/// A shell of the support, seen from the particle, and what the kernel is on it.
+struct Shell {
+    radius: f64,
+    area: f64,
+    value: f64,
+    slope: f64,
+}
+
+fn shells(kernel: Kernel, support: f64) -> Vec<Shell> {
     const SHELLS: usize = 250;
     let ds = support / SHELLS as f64;
-    let viscous = kernel.viscous_factor() / 8.0;
-    let [mut volume, mut gradient, mut normal, mut tangent, mut friction] = [0.0; 5];
-    for m in 0..SHELLS {
+    let shell = |m: usize| {
         let s = (m as f64 + 0.5) * ds;
-        let mu = cap(d, s).clamp(-1.0, 1.0);
-        let shell = 2.0 * PI * s * s * ds;
         let slope = kernel.slope_over_r(s, support) * s;
+        Shell { radius: s, area: 2.0 * PI * s * s * ds, value: kernel.value(s, support), slope }
+    };
+    (0..SHELLS).map(shell).collect()
+}
+
+/// `cap`: cosine of the opening of what is solid of a shell.
+fn integrate(shells: &[Shell], support: f64, viscous: f64, cap: impl Fn(f64) -> f64) -> WallTerms {
+    let [mut volume, mut gradient, mut normal, mut tangent, mut friction] = [0.0; 5];
+    for &Shell { radius: s, area: shell, value, slope } in shells {
+        let mu = cap(s).clamp(-1.0, 1.0);
         let cube = 1.0 - mu.powi(3);
-        volume += shell * kernel.value(s, support) * (1.0 - mu);
+        volume += shell * value * (1.0 - mu);
         gradient += shell * slope * (1.0 - mu * mu) / 2.0;
         normal -= shell * s * slope * cube / 3.0;
         tangent -= shell * s * slope * ((1.0 - mu) / 2.0 - cube / 6.0);

@@ -6,7 +6,7 @@ mod common;
 
 use common::{Run, SOLVERS, aabb, assert_finite, jet_scene, tank_scene, vector};
 use glam::DVec3;
-use hapflow_fluid::{CpuBackend, FluidConfig, FluidError, InteractionMode, Solver};
+use hapflow_fluid::{CpuBackend, FluidBackend, FluidConfig, FluidError, InteractionMode, Solver};
 
 /// A jet that meets nothing.
 fn free_jet(solver: Solver, spacing: f64) -> FluidConfig {
@@ -159,6 +159,13 @@ fn the_limit_on_particles_holds() {
     let error = CpuBackend::new(&config).unwrap_err();
     assert_eq!(error, FluidError::TooManyParticles { needed: 1000, allowed: 900 });
     assert!(error.to_string().contains("1000") && error.to_string().contains("fluid.max_particles"));
+    // While it runs, too: a spacing that needs more is refused, and the fluid goes on.
+    config.settings.max_particles = 1000;
+    let mut run = Run::new(&config);
+    let (count, mut finer) = (run.frame().particles, config.clone());
+    finer.settings.spacing = 1e-4;
+    assert!(matches!(run.fluid.configure(&finer), Err(FluidError::TooManyParticles { .. })));
+    assert_eq!(run.frame().particles, count);
 }
 
 #[test]

@@ -55,6 +55,9 @@ pub enum ValidationError {
     /// A setting of the scene's table.
     #[error(transparent)]
     Setting(#[from] SceneError),
+    /// What the fluid refuses of a benchmark.
+    #[error(transparent)]
+    Bench(#[from] FluidError),
     /// What the fluid refuses.
     #[error("{case} at dx = {dx} m: {cause}")]
     Fluid {

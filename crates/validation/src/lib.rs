@@ -8,6 +8,7 @@
 //! differs from it.
 #![forbid(unsafe_code)]
 
+pub mod bench;
 mod case;
 mod cases;
 mod error;

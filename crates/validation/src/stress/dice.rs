@@ -11,6 +11,21 @@ impl Dice {
         Self(seed)
     }
 
+    /// Another sequence for what is called `name`: whatever else there is, it draws the same.
+    pub fn of(&self, name: &str) -> Self {
+        // Fowler, Noll & Vo's hash, FNV-1a.
+        let hash = name.bytes().fold(self.0 ^ 0xCBF2_9CE4_8422_2325, |h, b| {
+            (h ^ u64::from(b)).wrapping_mul(0x0000_0100_0000_01B3)
+        });
+        Self(hash)
+    }
+
+    /// One of `list` by its name, so that one more in the list changes few choices.
+    pub fn pick_named<'a, T>(&mut self, list: &'a [T], name: impl Fn(&T) -> &str) -> Option<&'a T> {
+        self.next();
+        list.iter().min_by_key(|t| self.of(name(t)).next())
+    }
+
     fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

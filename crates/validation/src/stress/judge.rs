@@ -35,6 +35,8 @@ pub(super) struct Judge {
     pub ledger: Ledger,
     /// Most particles so far.
     most: usize,
+    /// A source has run.
+    fed: bool,
     /// Everybody at the last look, by number.
     seen: HashMap<u32, Seen>,
 }
@@ -67,6 +69,7 @@ impl Judge {
         self.ledger.take_config(config);
         self.ledger.take_motion(frame.speed);
         self.most = self.most.max(view.ids.len());
+        self.fed |= config.world.sources.iter().any(|s| s.on);
         finite(view, output)?;
         in_the_world(config, frame, view)?;
         self.contained(config, view)?;
@@ -136,9 +139,8 @@ impl Judge {
     fn loose(&self, config: &FluidConfig, view: &ParticleView) -> Result<(), String> {
         let c = config.sound_speed();
         let explained = 2.0 * self.ledger.total() / (c * c).max(1e-30);
-        // A cap holds fluid back that a source goes on to push.
-        let held = config.settings.max_displacement > 0.0;
-        if config.settings.mode == InteractionMode::None || held || !is_roomy(config) {
+        // A source pushes its fluid in, whatever is there.
+        if config.settings.mode == InteractionMode::None || self.fed || !is_roomy(config) {
             return Ok(());
         }
         let found = crowd::squeeze(&crowd::fill(view, config.settings.spacing));
@@ -229,8 +231,11 @@ fn way_out(config: &FluidConfig, p: DVec3, inside: bool) -> f64 {
 
 fn in_the_world(config: &FluidConfig, frame: Frame, view: &ParticleView) -> Result<(), String> {
     let (bounds, s) = (config.world.bounds, &config.settings);
-    // Who leaves the world is dropped when the next step begins.
-    let slack = DVec3::splat(config.highest_speed() * frame.duration + frame.thrown + s.spacing);
+    // Who leaves the world is dropped when the next step begins; walls and bodies may have handed it on, each to a
+    // contact's distance.
+    let bodies = config.world.bodies.iter().map(|b| 2.0 * b.shape.bounding_radius() + s.spacing);
+    let handed = bodies.sum::<f64>() + 4.0 * s.spacing;
+    let slack = DVec3::splat((config.highest_speed() + frame.speed) * frame.duration + handed);
     let outside = |p: &DVec3| !(p.cmpge(bounds.min - slack).all() && p.cmple(bounds.max + slack).all());
     match vectors(&view.positions).find(outside) {
         Some(p) => Err(format!("a particle is out of the world at {p}")),

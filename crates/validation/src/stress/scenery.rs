@@ -34,6 +34,7 @@ impl Scenery {
         furnish(&mut scene, dice);
         let share = dice.scale(DRAWN[0], DRAWN[1]);
         for address in addresses(&scene) {
+            let dice = &mut dice.of(&address.path);
             let always = ["fluid.solver", "fluid.mode", "run.coupling"].contains(&address.path.as_str());
             if !placed(&address.path) && dice.chance(if always { 0.7 } else { share }) {
                 change(&mut scene, &address.path, &address.kind, dice);
@@ -55,7 +56,7 @@ impl Scenery {
     /// The same with a live setting drawn anew; none where that is refused. Also which.
     pub fn changed(&self, dice: &mut Dice) -> Option<(Self, String)> {
         let live: Vec<_> = addresses(&self.scene).into_iter().filter(|a| a.live).collect();
-        let address = dice.pick(&live)?;
+        let address = dice.pick_named(&live, |a| &a.path)?;
         let mut scene = self.scene.clone();
         let value = fitting(&address.kind, dice)?;
         settings::set_live(&mut scene, &address.path, &value).ok()?;

@@ -48,7 +48,7 @@ pub(super) fn run(seed: u64) -> Result<(), String> {
 fn refuse_what_does_not_fit(scenery: &Scenery, dice: &mut Dice) -> Result<(), String> {
     let all = addresses(&scenery.scene);
     for _ in 0..REFUSALS {
-        let Some(address) = dice.pick(&all) else { return Ok(()) };
+        let Some(address) = dice.pick_named(&all, |a| &a.path) else { return Ok(()) };
         let (mut scene, value) = (scenery.scene.clone(), misfit(&address.kind, dice));
         match settings::set(&mut scene, &address.path, &value) {
             Ok(()) => return Err(format!("{} = {value} is taken", address.path)),
@@ -153,7 +153,8 @@ impl Trial {
         let born = self.config.world.sources.iter().any(|s| s.on);
         let sudden = moved.iter().any(|(_, m)| m.jumped) || std::mem::take(&mut self.changed) || born;
         let thrown = if sudden {
-            self.config.world.bodies.iter().map(|b| 2.0 * b.shape.bounding_radius()).fold(0.0, f64::max)
+            // From one to the next, at worst.
+            self.config.world.bodies.iter().map(|b| 2.0 * b.shape.bounding_radius()).sum()
         } else {
             0.0
         };
