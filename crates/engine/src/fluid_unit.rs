@@ -4,8 +4,8 @@ use crate::obstacles::Obstacles;
 use crate::shared::Shared;
 use crate::tool_lane::{FrameTime, ToolLane};
 use hapflow_fluid::{
-    BodyDrive, BodyLoad, BodyMotion, BodySample, FluidBackend, FluidConfig, FrameInput, FrameOutput,
-    ParticleView, Surroundings,
+    BodyDrive, BodyLoad, BodyMotion, BodySample, FluidBackend, FluidConfig, FluidSettings, FrameInput,
+    FrameOutput, ParticleView, Surroundings,
 };
 use hapflow_haptics::{FaultSet, Neighbourhood, Wrench};
 use hapflow_realtime::{LatestWriter, SharedFlags};
@@ -105,12 +105,11 @@ impl FluidUnit {
 
     /// Makes the local models of a frame that was stepped.
     fn answer(&mut self, frame: FrameTime) {
-        let density = self.config.settings.rest_density;
         for (k, (lane, config)) in self.tools.iter_mut().zip(&self.config.world.bodies).enumerate() {
             let body = self.bodies.buffer()[k];
             let around = lane.looks(config).map(|reach| {
                 self.backend.surroundings(body.state.position, reach, &mut self.around);
-                neighbourhood(&self.around, density)
+                neighbourhood(&self.around, &self.config.settings)
             });
             let sound = lane.end_frame(config, body, around, frame);
             self.flags.raise(FaultSet::FLUID_FAULT.when(!sound).bits());
@@ -143,9 +142,16 @@ impl FluidUnit {
     }
 }
 
-fn neighbourhood(around: &Surroundings, density: f64) -> Neighbourhood<'_> {
-    let (origin, spacing) = (around.origin, around.spacing);
-    Neighbourhood { density, origin, spacing, side: Surroundings::SIDE, nodes: around.nodes() }
+fn neighbourhood<'a>(around: &'a Surroundings, fluid: &FluidSettings) -> Neighbourhood<'a> {
+    Neighbourhood {
+        density: fluid.rest_density,
+        viscosity: fluid.viscosity,
+        gravity: fluid.gravity,
+        origin: around.origin,
+        spacing: around.spacing,
+        side: Surroundings::SIDE,
+        nodes: around.nodes(),
+    }
 }
 
 fn report(last: &FluidReport, output: &FrameOutput) -> FluidReport {

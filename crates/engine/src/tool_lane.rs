@@ -27,13 +27,15 @@ pub(crate) struct ToolLane {
     last: PathSample,
     /// Where the last frame's path ended.
     path_end: BodySample,
-    forecast: Forecast,
+    forecast: Forecast<TICKS>,
     /// The way of the frame, for the coupling.
     path_taken: Vec<ToolState>,
     /// Time from the end of a frame until its model is handed over, s, over the last frames.
     delay_s: f64,
 }
 
+/// Ticks from which a path is carried on.
+const TICKS: usize = 40;
 /// What leaves at a tick acts until the next, so in the mean half a tick later, s.
 const TICK_DELAY_S: f64 = 0.5e-3;
 /// Share of the newest frame in the mean delay.
@@ -99,7 +101,7 @@ impl ToolLane {
 
     /// Where the fluid's answer of this frame will be felt.
     fn felt_at(&self, frame: FrameTime) -> ToolState {
-        self.forecast.at(frame.end_s + self.delay_s + 0.5 * frame.length_s)
+        self.forecast.at(frame.end_s + self.delay_s + 0.5 * frame.length_s, self.coupling.bend())
     }
 
     /// Makes the frame's local model, to wait for [`publish`](Self::publish). False if the force was not finite; it
@@ -119,12 +121,13 @@ impl ToolLane {
             load: Wrench { force: load.force(), torque: load.torque },
             frame_s: frame.length_s,
             radius: config.shape.bounding_radius(),
+            volume: config.shape.volume(),
             path: &self.path_taken,
             felt_at: self.felt_at(frame),
             around,
         };
-        let Answer { wrench, law } = self.coupling.end_frame(&end_of_frame);
-        let sound = wrench.is_finite() && law.is_finite();
+        let Answer { wrench, law, added_mass } = self.coupling.end_frame(&end_of_frame);
+        let sound = wrench.is_finite() && law.is_finite() && added_mass.is_finite();
         self.pending = Some(LocalModel {
             frame: frame.number,
             path_end_s: frame.end_s + self.lead_s(frame),
@@ -132,6 +135,7 @@ impl ToolLane {
             frame_s: frame.length_s,
             wrench: if sound { wrench } else { Wrench::ZERO },
             law: if sound { law } else { Law::default() },
+            added_mass: if sound { added_mass } else { 0.0 },
             body: end.position,
         });
         sound
@@ -194,7 +198,7 @@ impl ToolLane {
     /// Puts a smooth way from where the last frame's path ended to where the tool will be when this frame is felt in the
     /// place of the samples, and returns the tool there.
     fn lead_path(&mut self, frame: FrameTime) -> ToolState {
-        let end = self.forecast.at(frame.end_s + self.lead_s(frame));
+        let end = self.forecast.at(frame.end_s + self.lead_s(frame), self.coupling.bend());
         let (from, to) = (self.path_end, sample(frame.end_s, &end));
         let start_s = frame.end_s - frame.length_s;
         self.samples.clear();

@@ -85,6 +85,8 @@ pub struct FrameEnd<'a> {
     pub frame_s: f64,
     /// Radius of the ball round the tool, m.
     pub radius: f64,
+    /// Volume of the tool, m³.
+    pub volume: f64,
     /// The way that the tool was led in it.
     pub path: &'a [ToolState],
     /// Where the hand is expected in the middle of the time in which this frame is felt.
@@ -100,12 +102,14 @@ pub struct Answer {
     pub wrench: Wrench,
     /// The force that does.
     pub law: Law,
+    /// Mass of fluid that goes along with the tool; its inertia is in neither, kg.
+    pub added_mass: f64,
 }
 
 impl Answer {
     /// A wrench wherever the tool is.
     fn constant(wrench: Wrench) -> Self {
-        Self { wrench, law: Law::default() }
+        Self { wrench, law: Law::default(), added_mass: 0.0 }
     }
 }
 
@@ -114,6 +118,11 @@ pub trait Coupling: Send {
     /// Whether the tool's path is carried on to where the hand will be when the frame's answer is felt.
     fn leads(&self) -> bool {
         false
+    }
+
+    /// Share of the hand's acceleration with which that path goes on, 0..1.
+    fn bend(&self) -> f64 {
+        1.0
     }
 
     /// How the body moves in the frame of `frame_s` seconds whose tool path ends at `device`.
@@ -188,7 +197,16 @@ mod tests {
         let mut felt = |body| {
             let felt_at = ToolState::default();
             let load = Wrench::ZERO;
-            let frame = FrameEnd { body, load, frame_s: dt, radius: 0.01, path: &[], felt_at, around: None };
+            let frame = FrameEnd {
+                body,
+                load,
+                frame_s: dt,
+                radius: 0.01,
+                volume: 1e-6,
+                path: &[],
+                felt_at,
+                around: None,
+            };
             coupling.end_frame(&frame).wrench.force
         };
         assert_eq!(felt(undisturbed), DVec3::ZERO);

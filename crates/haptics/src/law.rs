@@ -18,6 +18,17 @@ pub struct LawNode {
 impl LawNode {
     /// No force.
     pub const ZERO: Self = Self { force: Vec3::ZERO, by_velocity: Mat3::ZERO };
+
+    /// Both together.
+    pub fn plus(&self, other: &Self) -> Self {
+        Self { force: self.force + other.force, by_velocity: self.by_velocity + other.by_velocity }
+    }
+
+    /// `factor` times as much.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let factor = factor as f32;
+        Self { force: self.force * factor, by_velocity: self.by_velocity * factor }
+    }
 }
 
 /// A force as a table over 3 × 3 × 3 places: quadratic between them, linear in the velocity, and from a little outside of
@@ -70,11 +81,18 @@ impl Law {
         places && self.nodes.iter().all(|n| n.force.is_finite() && n.by_velocity.is_finite())
     }
 
+    /// The law with that of `other`, which is of the same places, added.
+    pub fn plus(mut self, other: &Self) -> Self {
+        for (node, more) in self.nodes.iter_mut().zip(&other.nodes) {
+            *node = node.plus(more);
+        }
+        self
+    }
+
     /// The same law with `factor` times the force.
     pub fn scaled(mut self, factor: f64) -> Self {
         for node in &mut self.nodes {
-            node.force *= factor as f32;
-            node.by_velocity *= factor as f32;
+            *node = node.scaled(factor);
         }
         self
     }

@@ -13,6 +13,7 @@
 //! | let a force out to a hand | [`SafetyGate`], the only maker of a [`GatedWrench`] |
 #![forbid(unsafe_code)]
 
+mod added_mass;
 mod axes;
 mod coupling;
 mod fault;
@@ -21,6 +22,7 @@ mod forecast;
 mod gate;
 mod gate_settings;
 mod gated_wrench;
+mod immersion;
 mod impact;
 mod law;
 mod local;

@@ -18,6 +18,8 @@ pub struct LocalModel {
     pub wrench: Wrench,
     /// The force that depends on where the tool is.
     pub law: Law,
+    /// Mass of fluid that goes along with the tool, kg.
+    pub added_mass: f64,
     /// Where the tool's body was at its end, m.
     pub body: DVec3,
 }

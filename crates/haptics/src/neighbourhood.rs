@@ -7,6 +7,10 @@ use glam::{DVec3, Vec3};
 pub struct Neighbourhood<'a> {
     /// Density of the fluid, kg/m³.
     pub density: f64,
+    /// Its viscosity, Pa·s.
+    pub viscosity: f64,
+    /// Acceleration of gravity, m/s².
+    pub gravity: DVec3,
     /// Place of the first node, m.
     pub origin: DVec3,
     /// Distance between nodes, m.
@@ -41,7 +45,7 @@ impl Neighbourhood<'_> {
     }
 
     /// Where node `k` is, m.
-    fn place(&self, k: usize) -> DVec3 {
+    pub fn place(&self, k: usize) -> DVec3 {
         let n = self.side;
         self.origin + self.spacing * DVec3::new((k % n) as f64, (k / n % n) as f64, (k / (n * n)) as f64)
     }

@@ -1,9 +1,12 @@
 //! The servo's half of a coupling: from local models to one force without steps.
 
+use crate::added_mass::AddedMass;
 use crate::{CouplingKind, Forecast, LocalModel, ToolState, Wrench};
 
 /// Shortest time over which a new model is blended in, s: a fast fluid is the mean over little time, and noisy.
 const BLEND_S: f64 = 1.0 / 60.0;
+/// Ticks of which the hand's place and velocity are made.
+const TICKS: usize = 40;
 /// What leaves at a tick acts until the next: in the mean half a tick later, s.
 const AHEAD_S: f64 = 0.5e-3;
 
@@ -14,7 +17,9 @@ const AHEAD_S: f64 = 0.5e-3;
 #[derive(Clone, Debug)]
 pub struct Rendering {
     /// Where the hand is, if the coupling looks at it that closely.
-    hand: Option<Forecast>,
+    hand: Option<Forecast<TICKS>>,
+    /// The fluid that goes along with the tool.
+    carried: AddedMass,
     /// The model of the last tick.
     model: LocalModel,
     /// What the models before gave beyond it, when it came.
@@ -25,7 +30,7 @@ impl Rendering {
     /// The servo's half of a coupling of this kind.
     pub fn new(kind: CouplingKind) -> Self {
         let hand = (kind == CouplingKind::Local).then(|| Forecast::new(ToolState::default()));
-        Self { hand, model: LocalModel::default(), step: Wrench::ZERO }
+        Self { hand, carried: AddedMass::default(), model: LocalModel::default(), step: Wrench::ZERO }
     }
 
     /// Time over which the model of a frame of `frame_s` seconds is blended in, s. That is also by how much what is blended
@@ -38,11 +43,13 @@ impl Rendering {
     pub fn tick(&mut self, model: &LocalModel, fresh: bool, tool: &ToolState, time_s: f64) -> Wrench {
         let Some(hand) = &mut self.hand else { return model.evaluate(tool) };
         hand.take(time_s, tool);
-        let tool = hand.at(time_s + AHEAD_S);
+        let tool = hand.at(time_s + AHEAD_S, 1.0);
+        let acceleration = self.carried.follow(&tool, time_s);
         if fresh {
             self.take(model, &tool, time_s);
         }
-        self.model.evaluate(&tool) + self.step * self.left(time_s)
+        let inertia = Wrench::from_force(acceleration * -self.model.added_mass);
+        self.model.evaluate(&tool) + inertia + self.step * self.left(time_s)
     }
 
     /// Goes over to `model` without a step.

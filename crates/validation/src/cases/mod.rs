@@ -47,6 +47,8 @@ pub const CASES: &[Case] = &[
     felt::CASES[0],
     felt::CASES[1],
     felt::CASES[2],
+    felt::CASES[3],
+    felt::CASES[4],
 ];
 
 /// The case of that name.

@@ -1,8 +1,9 @@
 //! A hand that crosses a jet.
 
+use super::bench::{Bench, ripple, scripted, steady};
 use super::closed_loop::Trace;
 use super::figures;
-use super::jet::{self, Bench, steady};
+use super::jet;
 use super::truth::Truth;
 use super::ways::Way;
 use crate::run::Report;
@@ -36,7 +37,7 @@ pub(super) const CASE: Case = Case {
 };
 
 fn run(setup: &Setup<'_>) -> Result<Report, ValidationError> {
-    let mut bench = Bench::new(setup)?;
+    let mut bench = Bench::new(setup, jet::scene(setup))?;
     let baseline = Crossed::by(&mut bench, &Way::baseline()?)?;
     let mut measures = Vec::new();
     for way in bench.ways()? {
@@ -63,7 +64,7 @@ impl Crossed {
         let side = WIDTH * (bench.setup.number("tool_radius") + 0.5 * bench.setup.number("diameter"));
         let duration_s = PEAK * 2.0 * side / bench.setup.number("crossing_speed");
         let across = Segment::MoveTo { position: DVec3::X * side, duration_s };
-        let scene = jet::scripted(&felt, DVec3::NEG_X * side, &[across], HOLD);
+        let scene = scripted(&felt, DVec3::NEG_X * side, &[across], HOLD);
         let trace = bench.run(&scene)?;
         let truth = bench.truth_of(&trace)?;
         Ok(Self { scene, trace, truth })
@@ -72,10 +73,10 @@ impl Crossed {
     /// What the hand felt above 20 Hz that the truth does not have, N. What scatter the mean of the seeds has left is
     /// taken off.
     fn added_ripple(&self) -> f64 {
-        let added = jet::ripple(&figures::difference(steady(&self.trace.sent), steady(&self.truth.mean)));
+        let added = ripple(&figures::difference(steady(&self.trace.sent), steady(&self.truth.mean)));
         let seeds = self.truth.seeds.len() as f64;
         // A seed against the mean of the others: its own scatter, and theirs.
-        let apart = self.truth.floor(|a, b| jet::ripple(&figures::difference(steady(a), steady(b))).powi(2));
+        let apart = self.truth.floor(|a, b| ripple(&figures::difference(steady(a), steady(b))).powi(2));
         let left = apart * (seeds - 1.0) / seeds / seeds;
         (added.powi(2) - left).max(0.0).sqrt()
     }
@@ -105,7 +106,7 @@ impl Crossed {
         let work = |a: &[DVec3], b: &[DVec3]| figures::energy(a, b, path)[1];
         let still = floor(&work).unwrap_or(0.0);
         let energy = zero("energy_true_J", "J", (net.abs().max(up) - still).max(0.0)).goal(2e-3);
-        let ripple = |a: &[DVec3], b: &[DVec3]| jet::ripple(&figures::difference(a, b)) / baseline;
+        let ripple = |a: &[DVec3], b: &[DVec3]| ripple(&figures::difference(a, b)) / baseline;
         vec![
             mark(error, floor(&figures::force_error), limits.map(|l| l[1])),
             mark(angle, floor(&figures::direction_error_deg), Some(3.0)),

@@ -1,7 +1,8 @@
 //! A hand that swings in a jet, along and across it.
 
+use super::bench::{Bench, WARM_UP, scripted};
 use super::figures;
-use super::jet::{self, Bench, WARM_UP};
+use super::jet;
 use super::ways::Way;
 use crate::run::Report;
 use crate::{Case, Measure, Setup, ValidationError};
@@ -30,7 +31,7 @@ pub(super) const CASE: Case = Case {
 };
 
 fn run(setup: &Setup<'_>) -> Result<Report, ValidationError> {
-    let mut bench = Bench::new(setup)?;
+    let mut bench = Bench::new(setup, jet::scene(setup))?;
     let mut measures = Vec::new();
     for way in bench.ways()? {
         measures.extend(swung(&mut bench, &way)?);
@@ -49,7 +50,7 @@ fn swung(bench: &mut Bench<'_>, way: &Way) -> Result<Vec<Measure>, ValidationErr
             frequency_hz,
             duration_s,
         });
-        let scene = jet::scripted(&felt, place, &segments, 0.0);
+        let scene = scripted(&felt, place, &segments, 0.0);
         let trace = bench.run(&scene)?;
         let truth = bench.truth_of(&trace)?;
         let mut end = WARM_UP;

@@ -1,16 +1,20 @@
 //! The felt force in closed loop: a simulated device in a simulated hand, a servo, a coupling and a fluid, against the
 //! truth, which is the hand's own path through a fluid that answers at once.
 
+mod bench;
 mod closed_loop;
 mod crossing;
+mod entry;
 mod figures;
 mod jet;
 mod lag;
+mod pool;
 mod still;
+mod stir;
 mod truth;
 mod ways;
 
 use crate::Case;
 
 /// The cases, in the order of the table.
-pub(crate) const CASES: [Case; 3] = [still::CASE, crossing::CASE, lag::CASE];
+pub(crate) const CASES: [Case; 5] = [still::CASE, crossing::CASE, lag::CASE, entry::CASE, stir::CASE];

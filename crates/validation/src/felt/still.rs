@@ -1,6 +1,7 @@
 //! A steady jet on a ball that is held still.
 
-use super::jet::{self, Bench, ripple, steady, still_path};
+use super::bench::{Bench, mean, ripple, scripted, steady, still_path};
+use super::jet;
 use super::{figures, ways::Way};
 use crate::run::Report;
 use crate::{Case, Measure, Setup, ValidationError};
@@ -24,7 +25,7 @@ pub(super) const CASE: Case = Case {
 };
 
 fn run(setup: &Setup<'_>) -> Result<Report, ValidationError> {
-    let mut bench = Bench::new(setup)?;
+    let mut bench = Bench::new(setup, jet::scene(setup))?;
     let mut measures = source(&mut bench)?;
     for way in bench.ways()? {
         measures.extend(held(&mut bench, &way)?);
@@ -39,8 +40,8 @@ fn source(bench: &mut Bench<'_>) -> Result<Vec<Measure>, ValidationError> {
     let mut at = |x: f64| bench.truth(&scene, &still_path(DVec3::X * x), 1);
     let still = at(0.0)?;
     let force = steady(&still.mean);
-    let ripple = ripple(force) / jet::mean(force).length();
-    let sides = [at(offset)?, at(-offset)?].map(|t| jet::mean(steady(&t.mean)).x);
+    let ripple = ripple(force) / mean(force).length();
+    let sides = [at(offset)?, at(-offset)?].map(|t| mean(steady(&t.mean)).x);
     let ripple = Measure::zero("source_ripple", "1", ripple, 1.0).goal(0.05);
     let ripple = bench.mark(ripple, &scene, None, Some(0.01));
     Ok(if sides[0] == 0.0 { vec![ripple] } else { vec![ripple, symmetry(bench, &scene, sides)] })
@@ -53,7 +54,7 @@ fn symmetry(bench: &Bench<'_>, scene: &hapflow_engine::Scene, [a, b]: [f64; 2]) 
 
 /// What the hand feels of it by `way`.
 fn held(bench: &mut Bench<'_>, way: &Way) -> Result<Vec<Measure>, ValidationError> {
-    let scene = jet::scripted(&bench.felt(way)?, DVec3::ZERO, &[], 1.0);
+    let scene = scripted(&bench.felt(way)?, DVec3::ZERO, &[], 1.0);
     let trace = bench.run(&scene)?;
     let (sent, fresh) = (steady(&trace.sent), steady(&trace.fresh));
     let mark = |m: Measure, goal| bench.mark(m, &scene, None, Some(goal));
