@@ -49,6 +49,10 @@ pub struct ServoReport {
     pub frame: u64,
     /// Age of its data, s.
     pub age_s: f64,
+    /// Energy that coupling `local` itself, not the fluid, has given beyond what it took since its lowest, J.
+    pub own_energy_j: f64,
+    /// Force that was taken off so that it gives no more, N.
+    pub held_back_n: f64,
 }
 
 /// The servo's half of a session.
@@ -106,7 +110,7 @@ impl ServoUnit {
         let lost = self.path.push(PathSample { time_s, tool: in_fluid });
         let new_frame = self.model.update();
         let model = self.model.get();
-        let raw = self.rendering.tick(model, new_frame, &tool, time_s) * self.force_scale;
+        let raw = self.rendering.tick(model, new_frame, &tool, time_s, self.force_scale);
         let filtered = self.filter.step(raw, new_frame);
         // Solids are not filtered: they would feel late, and soft.
         let felt = filtered + Wrench::from_force(pushed);
@@ -125,6 +129,8 @@ impl ServoUnit {
             faults: self.gate.faults(),
             frame,
             age_s: age.age_s,
+            own_energy_j: self.rendering.own_energy_j(),
+            held_back_n: self.rendering.held_back_n(),
         };
         self.report.write(self.newest);
         if let Some(tape) = &mut self.tape {

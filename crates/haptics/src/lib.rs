@@ -29,6 +29,7 @@ mod local;
 mod local_model;
 mod mapping;
 mod neighbourhood;
+mod passivity;
 mod proxy;
 mod range;
 mod rendering;

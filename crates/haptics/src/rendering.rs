@@ -1,6 +1,7 @@
 //! The servo's half of a coupling: from local models to one force without steps.
 
 use crate::added_mass::AddedMass;
+use crate::passivity::Passivity;
 use crate::{CouplingKind, Forecast, LocalModel, ToolState, Wrench};
 
 /// Shortest time over which a new model is blended in, s: a fast fluid is the mean over little time, and noisy.
@@ -24,13 +25,24 @@ pub struct Rendering {
     model: LocalModel,
     /// What the models before gave beyond it, when it came.
     step: Wrench,
+    /// Watches what the step does.
+    passivity: Passivity,
+    /// Size of what was taken off it at the last tick, N.
+    held_back_n: f64,
 }
 
 impl Rendering {
     /// The servo's half of a coupling of this kind.
     pub fn new(kind: CouplingKind) -> Self {
         let hand = (kind == CouplingKind::Local).then(|| Forecast::new(ToolState::default()));
-        Self { hand, carried: AddedMass::default(), model: LocalModel::default(), step: Wrench::ZERO }
+        Self {
+            hand,
+            carried: AddedMass::default(),
+            model: LocalModel::default(),
+            step: Wrench::ZERO,
+            passivity: Passivity::default(),
+            held_back_n: 0.0,
+        }
     }
 
     /// Time over which the model of a frame of `frame_s` seconds is blended in, s. That is also by how much what is blended
@@ -39,17 +51,53 @@ impl Rendering {
         frame_s.max(BLEND_S)
     }
 
-    /// The wrench on a tool in this state at `time_s`; `fresh` says that `model` is new at this tick.
-    pub fn tick(&mut self, model: &LocalModel, fresh: bool, tool: &ToolState, time_s: f64) -> Wrench {
-        let Some(hand) = &mut self.hand else { return model.evaluate(tool) };
+    /// The wrench on a tool in this state at `time_s`, with a factor of `scale` on the fluid's force; `fresh` says that
+    /// `model` is new at this tick.
+    pub fn tick(
+        &mut self,
+        model: &LocalModel,
+        fresh: bool,
+        tool: &ToolState,
+        time_s: f64,
+        scale: f64,
+    ) -> Wrench {
+        let Some(hand) = &mut self.hand else { return model.evaluate(tool) * scale };
         hand.take(time_s, tool);
-        let tool = hand.at(time_s + AHEAD_S, 1.0);
-        let acceleration = self.carried.follow(&tool, time_s);
+        let smooth = hand.at(time_s + AHEAD_S, 1.0);
+        let acceleration = self.carried.follow(&smooth, time_s);
         if fresh {
-            self.take(model, &tool, time_s);
+            self.take(model, &smooth, time_s);
         }
         let inertia = Wrench::from_force(acceleration * -self.model.added_mass);
-        self.model.evaluate(&tool) + inertia + self.step * self.left(time_s)
+        let law = self.model.evaluate(tool);
+        let beyond = self.model.evaluate(&smooth) - law;
+        (law + inertia) * scale + self.own(beyond, tool, time_s, scale)
+    }
+
+    /// What the coupling renders beyond the newest model on the tool, as far as it is passive: `beyond`, which comes of the
+    /// smoothed tool, and the step.
+    fn own(&mut self, beyond: Wrench, tool: &ToolState, time_s: f64, scale: f64) -> Wrench {
+        let factor = self.left(time_s) * scale;
+        let wanted = beyond * scale + self.step * factor;
+        let force = self.passivity.admit(wanted.force, tool.position, tool.velocity, time_s);
+        let held_back = wanted.force - force;
+        self.held_back_n = held_back.length();
+        // What was taken off does not come back when the tool turns round.
+        if factor > 0.0 {
+            let most = self.step.force.length();
+            self.step.force -= (held_back / factor).clamp_length_max(most);
+        }
+        Wrench { force, ..wanted }
+    }
+
+    /// Energy that the coupling itself has given to the hand beyond what it took since its lowest, J.
+    pub fn own_energy_j(&self) -> f64 {
+        self.passivity.rise_j()
+    }
+
+    /// Force that was taken off at the last tick so that it gives no more, N.
+    pub fn held_back_n(&self) -> f64 {
+        self.held_back_n
     }
 
     /// Goes over to `model` without a step.

@@ -49,6 +49,7 @@ pub const CASES: &[Case] = &[
     felt::CASES[2],
     felt::CASES[3],
     felt::CASES[4],
+    felt::CASES[5],
 ];
 
 /// The case of that name.

@@ -164,3 +164,25 @@ pub(super) fn scripted(scene: &Scene, from: DVec3, segments: &[Segment], hold: f
 pub(super) fn ripple(series: &[DVec3]) -> f64 {
     figures::rms(&figures::difference(series, &figures::slow(series)))
 }
+
+/// `act` of 0 to `count`, on as many threads as `threads`, in order.
+pub(super) fn in_parallel<T: Send>(count: usize, threads: usize, act: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let each = |worker: usize| (worker..count).step_by(threads).map(&act).collect::<Vec<_>>();
+    let shares: Vec<Vec<T>> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (1..threads)
+            .map(|w| {
+                scope.spawn({
+                    let each = &each;
+                    move || each(w)
+                })
+            })
+            .collect();
+        let mut shares = vec![each(0)];
+        shares.extend(
+            workers.into_iter().map(|w| w.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))),
+        );
+        shares
+    });
+    let mut shares: Vec<_> = shares.into_iter().map(Vec::into_iter).collect();
+    (0..count).filter_map(|k| shares[k % threads].next()).collect()
+}

@@ -4,6 +4,7 @@
 mod bench;
 mod closed_loop;
 mod crossing;
+mod energy;
 mod entry;
 mod figures;
 mod jet;
@@ -17,4 +18,5 @@ mod ways;
 use crate::Case;
 
 /// The cases, in the order of the table.
-pub(crate) const CASES: [Case; 5] = [still::CASE, crossing::CASE, lag::CASE, entry::CASE, stir::CASE];
+pub(crate) const CASES: [Case; 6] =
+    [still::CASE, crossing::CASE, lag::CASE, entry::CASE, stir::CASE, energy::CASE];

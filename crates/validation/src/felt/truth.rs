@@ -1,5 +1,6 @@
 //! What the hand should have felt: its own path, through a fluid that is stepped with it and answers at once.
 
+use super::bench::in_parallel;
 use crate::{Setup, ValidationError};
 use glam::DVec3;
 use hapflow_engine::{BackendKind, Scene, run::TICK_S};
@@ -57,28 +58,6 @@ fn mean_of(seeds: &[Vec<DVec3>], without: Option<usize>) -> Vec<DVec3> {
         seeds.iter().enumerate().filter(|(k, _)| Some(*k) != without).map(|(_, s)| s).collect();
     let ticks = kept.first().map_or(0, |s| s.len());
     (0..ticks).map(|n| kept.iter().map(|s| s[n]).sum::<DVec3>() / kept.len() as f64).collect()
-}
-
-/// `act` of 0 to `count`, on as many threads as `threads`, in order.
-fn in_parallel<T: Send>(count: usize, threads: usize, act: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let each = |worker: usize| (worker..count).step_by(threads).map(&act).collect::<Vec<_>>();
-    let shares: Vec<Vec<T>> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (1..threads)
-            .map(|w| {
-                scope.spawn({
-                    let each = &each;
-                    move || each(w)
-                })
-            })
-            .collect();
-        let mut shares = vec![each(0)];
-        shares.extend(
-            workers.into_iter().map(|w| w.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))),
-        );
-        shares
-    });
-    let mut shares: Vec<_> = shares.into_iter().map(Vec::into_iter).collect();
-    (0..count).filter_map(|k| shares[k % threads].next()).collect()
 }
 
 fn replay_seed(
