@@ -287,3 +287,26 @@ fn a_device_that_paces_sets_the_ticks() {
     session.close();
     assert_eq!(session.take_lost(), Some(DeviceError::Closed { device: "slow" }));
 }
+
+/// While its button is down the hand is free, and the tool stays; then both go on from there.
+#[test]
+fn a_clutch_frees_the_hand() {
+    let scene = jet(&[("run.backend", word("analytic-jet")), ("mapping.clutch_button", Value::Number(2.0))]);
+    let mut session = open(&scene, 1);
+    let (mut servo, mut fluid) = (session.take_servo().unwrap(), session.take_fluid().unwrap());
+    let mut tick = |n: u32, x: f64, buttons: u32| {
+        let time_s = f64::from(n) * 1e-3;
+        if n.is_multiple_of(10) {
+            fluid.publish(time_s);
+            fluid.compute(time_s);
+        }
+        servo.tick(&ToolState { buttons, ..ToolState::at(DVec3::X * x) }, time_s, 1e-3);
+        (servo.newest().tool.position.x, servo.newest().sent.force.length())
+    };
+    let (_, felt) = (0..1000).map(|n| tick(n, 0.0, 1)).last().unwrap();
+    assert!(felt > 0.3, "{felt}");
+    let (place, felt) = (1000..1100).map(|n| tick(n, f64::from(n - 1000) * 1e-4, 2)).last().unwrap();
+    assert!(place == 0.0 && felt < 1e-9, "at {place} with {felt} N");
+    let (place, felt) = (1100..1300).map(|n| tick(n, 0.0099, 0)).last().unwrap();
+    assert!(place.abs() < 1e-12 && felt > 0.3, "at {place} with {felt} N");
+}

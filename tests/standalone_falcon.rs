@@ -1,6 +1,8 @@
 //! The standalone demo with a Falcon, from power-on to summary: the emulated one, on a virtual clock.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+use glam::DVec3;
+use hapflow::devices::Segment;
 use hapflow::engine::run::{Outcome, Progress, RunOptions, virtual_clock};
 use hapflow::engine::{Scene, SceneError, Value, load, settings};
 use std::ops::ControlFlow;
@@ -86,7 +88,7 @@ fn it_repeats_to_the_bit() {
 #[test]
 fn the_weight_of_the_grip_is_carried_within_the_gate() {
     let mass = ("mapping.carried_mass", Value::Number(0.12));
-    let high = ("tool.position", Value::Vector(glam::DVec3::new(0.1, 0.1, 0.1)));
+    let high = ("tool.position", Value::Vector(DVec3::new(0.1, 0.1, 0.1)));
     let duration = ("run.duration", Value::Number(0.8));
     let lift = |more: &[(&str, Value)]| {
         let changes = [&[mass.clone(), high.clone(), duration.clone()], more].concat();
@@ -97,6 +99,20 @@ fn the_weight_of_the_grip_is_carried_within_the_gate() {
     assert!(first < 0.01 && (last - 0.12 * 9.80665).abs() < 1e-6, "{first} then {last}");
     let (_, last) = lift(&[("gate.max_force", Value::Number(0.5))]);
     assert!((last - 0.5).abs() < 1e-6, "{last}");
+}
+
+/// Where the Falcon's arms reach no further a soft rim pushes back, before they stop the hand.
+#[test]
+fn the_edge_of_its_workspace_is_soft() {
+    let mut scene =
+        scene("rim", &[("run.duration", Value::Number(5.0)), ("source.tap.on", Value::Bool(false))]);
+    scene.script = vec![Segment::MoveTo { position: DVec3::X * 0.075, duration_s: 2.0 }];
+    let rows = run(&scene, |_| true).1.unwrap().recording.rows;
+    let last = rows.last().unwrap();
+    assert!(last.tool.position.x > 0.062, "{}", last.tool.position);
+    assert!(last.sent.force.x < -0.5, "{}", last.sent.force);
+    let inside = rows.iter().filter(|row| row.tool.position.x.abs() < 0.055 && row.tool.position.z < 0.02);
+    inside.for_each(|row| assert!(row.sent.force.x.abs() < 0.01, "{row:?}"));
 }
 
 #[test]

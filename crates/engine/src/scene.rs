@@ -4,12 +4,14 @@ use crate::force_limit::ForceLimit;
 use crate::form::Form;
 use crate::{SceneError, Value, settings};
 use glam::DVec3;
-use hapflow_devices::falcon::Geometry;
+use hapflow_devices::falcon::{FREE_DISCS, FalconOptions, Geometry};
 use hapflow_devices::{DeviceInfo, HandPreset, HandSettings, Segment};
 use hapflow_fluid::{
     Aabb, BodyConfig, Container, ContainerForm, FluidConfig, FluidSettings, MIN_MASS_RATIO, Source, World,
 };
-use hapflow_haptics::{CouplingKind, FilterSpec, GateSettings, Mapping, Rim, SolidFeel, Workspace};
+use hapflow_haptics::{
+    Clutch, CouplingKind, FilterSpec, GateSettings, Mapping, Rim, SolidFeel, ToolState, Workspace,
+};
 
 /// Who computes the fluid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -178,6 +180,8 @@ pub struct MappingSettings {
     pub rim_radius: f64,
     /// Stiffness of the rim, N/m.
     pub rim_stiffness: f64,
+    /// Button of the clutch, from 1; 0 is none.
+    pub clutch_button: u32,
     /// Mass of the device's grip whose weight is taken off the hand, kg.
     pub carried_mass: f64,
 }
@@ -287,6 +291,7 @@ impl Default for Scene {
                 offset: DVec3::ZERO,
                 rim_radius: 0.0,
                 rim_stiffness: Rim::DEFAULT_STIFFNESS_N_PER_M,
+                clutch_button: 0,
                 carried_mass: 0.0,
             },
             falcon: FalconSettings { geometry: Geometry::NAMES[0].into(), ..FalconSettings::default() },
@@ -362,12 +367,21 @@ impl Scene {
         let refused = |e: &dyn std::fmt::Display| SceneError::Refused(format!("mapping: {e}"));
         let axes = m.axes.parse().map_err(|e| refused(&e))?;
         let mapping = Mapping::new(m.scale, axes, m.offset).map_err(|e| refused(&e))?;
-        if m.rim_radius <= 0.0 {
-            return Ok(mapping);
-        }
-        let workspace = Workspace::Sphere { centre: DVec3::ZERO, radius: m.rim_radius };
+        let workspace = match self.run.device {
+            _ if m.rim_radius > 0.0 => Workspace::Sphere { centre: DVec3::ZERO, radius: m.rim_radius },
+            DeviceKind::Falcon | DeviceKind::EmulatedFalcon => {
+                let start = mapping.device_state(ToolState::at(self.tool.position)).position;
+                Workspace::Discs { centre: start - FalconOptions::MIDDLE, discs: &FREE_DISCS }
+            }
+            _ => return Ok(mapping),
+        };
         let rim = Rim::new(workspace, m.rim_stiffness, Rim::DEFAULT_SOFT_M).map_err(|e| refused(&e))?;
         Ok(mapping.with_rim(rim))
+    }
+
+    /// Its clutch, if it has one.
+    pub(crate) fn clutch(&self) -> Option<Clutch> {
+        self.mapping.clutch_button.checked_sub(1).map(Clutch::new)
     }
 
     /// Refuses what cannot be run.

@@ -4,8 +4,8 @@ use crate::force_limit::ForceLimit;
 use crate::touch::Touch;
 use glam::DVec3;
 use hapflow_haptics::{
-    FaultSet, Filter, GateSettings, GatedWrench, LocalModel, Mapping, ModelAge, Rendering, SafetyGate,
-    ToolState, Wrench,
+    Clutch, FaultSet, Filter, GateSettings, GatedWrench, LocalModel, Mapping, ModelAge, Rendering,
+    SafetyGate, ToolState, Wrench,
 };
 use hapflow_realtime::{HostClock, LatestReader, LatestWriter, RingProducer, SharedFlags};
 use std::sync::Arc;
@@ -61,6 +61,8 @@ pub struct ServoUnit {
     pub(crate) rendering: Rendering,
     /// What carries the weight of the device's grip, device frame.
     pub(crate) lift: Wrench,
+    /// Where the scene has one.
+    pub(crate) clutch: Option<Clutch>,
     pub(crate) filter: Filter,
     pub(crate) gate: SafetyGate,
     pub(crate) limit: ForceLimit,
@@ -105,7 +107,9 @@ impl ServoUnit {
             // Negative and NaN become 0, which moves nothing.
             clock.set_ns((time_s * 1e9) as u64);
         }
-        let tool = self.mapping.to_scene(self.last_device);
+        let (shown, free) =
+            self.clutch.as_mut().map_or((self.last_device, false), |c| c.step(&self.last_device));
+        let tool = self.mapping.to_scene(shown);
         let (in_fluid, pushed) = self.touch_solids(&tool, time_s, dt_s);
         let lost = self.path.push(PathSample { time_s, tool: in_fluid });
         let new_frame = self.model.update();
@@ -114,6 +118,7 @@ impl ServoUnit {
         let filtered = self.filter.step(raw, new_frame);
         // Solids are not filtered: they would feel late, and soft.
         let felt = filtered + Wrench::from_force(pushed);
+        let felt = if free { Wrench::ZERO } else { felt };
         let wanted = self.mapping.to_device(felt) + self.mapping.rim_force(&self.last_device) + self.lift;
         let (age, body, frame) = (self.age(model, time_s), model.body, model.frame);
         let faults = faults | FaultSet::PATH_OVERFLOW.when(lost);

@@ -461,6 +461,7 @@ fn open_tool(
         mapping,
         rendering: Rendering::new(scene.run.coupling),
         lift: Wrench::from_force(DVec3::Y * (scene.mapping.carried_mass * STANDARD_GRAVITY)),
+        clutch: scene.clutch(),
         filter: Filter::new(&scene.filter(), 1000.0)?,
         gate: SafetyGate::new(scene.gate)?,
         limit: control.limit.clone(),

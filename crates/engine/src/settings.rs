@@ -584,7 +584,7 @@ const OTHERS: &[Setting<Scene>] = &[
         0.0..=10.0,
         FIXED,
         mapping.rim_radius,
-        "Radius of the device's workspace, behind which a soft rim pushes back; 0 has none."
+        "Radius of the device's workspace, behind which a soft rim pushes back; at 0 a Falcon has its own shape, others have none."
     ),
     number!(
         "mapping.rim_stiffness",
@@ -594,6 +594,18 @@ const OTHERS: &[Setting<Scene>] = &[
         mapping.rim_stiffness,
         "Stiffness of the rim."
     ),
+    Setting {
+        path: "mapping.clutch_button",
+        unit: "",
+        kind: Kind::Integer { min: 0.0, max: 32.0 },
+        live: FIXED,
+        about: "Button that lets the hand move without the tool and its force, from 1; 0 is none.",
+        get: |s| Value::Number(s.mapping.clutch_button.into()),
+        set: |s, v| {
+            s.mapping.clutch_button = v.number() as u32;
+            Ok(())
+        },
+    },
     number!(
         "mapping.carried_mass",
         "kg",

@@ -8,13 +8,14 @@
 //! | smooth a force | [`Filter`], described by a [`FilterSpec`] |
 //! | velocity of a device that gives positions only | [`VelocityEstimator`] |
 //! | move a tool in a fluid and make a force of it | [`Coupling`], [`LocalModel`] |
-//! | device frame to scene frame and back, and a soft edge | [`Mapping`], [`Rim`] |
+//! | device frame to scene frame and back, a soft edge, a clutch | [`Mapping`], [`Rim`], [`Clutch`] |
 //! | feel solids | [`Proxy`] among [`Solid`]s |
 //! | let a force out to a hand | [`SafetyGate`], the only maker of a [`GatedWrench`] |
 #![forbid(unsafe_code)]
 
 mod added_mass;
 mod axes;
+mod clutch;
 mod coupling;
 mod fault;
 mod filter;
@@ -39,6 +40,7 @@ mod types;
 mod velocity;
 
 pub use axes::{Axes, AxesError};
+pub use clutch::Clutch;
 pub use coupling::{Answer, BodyState, Coupling, CouplingKind, Drive, FrameEnd};
 pub use fault::FaultSet;
 pub use filter::{

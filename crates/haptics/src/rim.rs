@@ -1,7 +1,7 @@
 //! The soft edge of a device's workspace.
 
 use crate::{RangeError, check_range};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// The space in which a device moves freely, in the device frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +20,13 @@ pub enum Workspace {
         /// Its radius, m, 0.001 to 10.
         radius: f64,
     },
+    /// What discs about the z axis span, straight from each to the next: for arms that reach less at some depths.
+    Discs {
+        /// Where depth 0 is, m.
+        centre: DVec3,
+        /// Depth (along z) and radius of each, m: at least two, in order of depth; what they span is convex.
+        discs: &'static [(f64, f64)],
+    },
 }
 
 /// Why a workspace or its rim was refused.
@@ -36,8 +43,11 @@ pub enum WorkspaceError {
         /// Its upper corner, m.
         max: DVec3,
     },
-    /// A sphere whose centre is not finite.
-    #[error("workspace sphere: the centre {centre} must be finite")]
+    /// Discs that span nothing, or nothing convex.
+    #[error("workspace discs: at least two, in order of depth, with positive radii, and convex")]
+    Discs,
+    /// A sphere, or discs, whose centre is not finite.
+    #[error("workspace: the centre {centre} must be finite")]
     Centre {
         /// Its centre, m.
         centre: DVec3,
@@ -53,6 +63,12 @@ impl Workspace {
                 let from = position - centre;
                 from.clamp_length_max(radius) - from
             }
+            Self::Discs { centre, discs } => {
+                let from = position - centre;
+                let place = DVec2::new(from.truncate().length(), from.z);
+                let way = nearest(place, discs) - place;
+                (from.truncate().normalize_or_zero() * way.x).extend(way.y)
+            }
         }
     }
 
@@ -60,13 +76,41 @@ impl Workspace {
         match *self {
             Self::Box { min, max } if min.is_finite() && max.is_finite() && min.cmplt(max).all() => Ok(()),
             Self::Box { min, max } => Err(WorkspaceError::Corners { min, max }),
-            Self::Sphere { centre, .. } if !centre.is_finite() => Err(WorkspaceError::Centre { centre }),
+            Self::Sphere { centre, .. } | Self::Discs { centre, .. } if !centre.is_finite() => {
+                Err(WorkspaceError::Centre { centre })
+            }
+            Self::Discs { discs, .. } if !is_convex(discs) => Err(WorkspaceError::Discs),
+            Self::Discs { .. } => Ok(()),
             Self::Sphere { radius, .. } => {
                 check_range("workspace radius (m)", radius, 0.001, 10.0)?;
                 Ok(())
             }
         }
     }
+}
+
+/// The place nearest to `place` (distance from the axis, depth) of what `discs` span.
+fn nearest(place: DVec2, discs: &[(f64, f64)]) -> DVec2 {
+    let rim = |&(depth, radius): &(f64, f64)| DVec2::new(radius, depth);
+    let sides = discs.windows(2).map(|pair| (rim(&pair[0]), rim(&pair[1])));
+    if sides.clone().any(|(a, b)| (a.y..=b.y).contains(&place.y) && (b - a).perp_dot(place - a) >= 0.0) {
+        return place;
+    }
+    let ends = discs.first().into_iter().chain(discs.last()).map(|disc| (DVec2::new(0.0, disc.0), rim(disc)));
+    let on = |(a, b): (DVec2, DVec2)| {
+        a + (b - a) * ((place - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0)
+    };
+    let all = sides.chain(ends).map(on);
+    all.min_by(|a, b| a.distance_squared(place).total_cmp(&b.distance_squared(place))).unwrap_or(place)
+}
+
+fn is_convex(discs: &[(f64, f64)]) -> bool {
+    let sound = |&(depth, radius): &(f64, f64)| depth.is_finite() && radius > 0.0 && radius.is_finite();
+    let slope = |pair: &[(f64, f64)]| (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0);
+    discs.len() >= 2
+        && discs.iter().all(sound)
+        && discs.windows(2).all(|pair| pair[0].0 < pair[1].0)
+        && discs.windows(3).all(|three| slope(&three[..2]) >= slope(&three[1..]))
 }
 
 /// A spring outside a workspace that pushes back, so that the hand feels an edge and not the device's hard
@@ -153,9 +197,37 @@ mod tests {
         assert_eq!(rim.force(DVec3::Y * 1.4), DVec3::ZERO);
     }
 
+    const SPINDLE: [(f64, f64); 3] = [(-1.0, 0.5), (0.0, 1.0), (1.0, 0.5)];
+
+    #[test]
+    fn discs_pull_the_shortest_way() {
+        let spindle = Workspace::Discs { centre: DVec3::X, discs: &SPINDLE };
+        let way = |x: f64, z: f64| spindle.way_back(DVec3::new(x, 0.0, z));
+        for inside in [(1.0, 0.0), (1.99, 0.0), (1.49, 1.0), (1.0, -1.0), (1.7, 0.5)] {
+            assert_eq!(way(inside.0, inside.1), DVec3::ZERO, "{inside:?}");
+        }
+        // Outwards of the widest disc, off an end, and off a slope, along its normal.
+        assert!((way(3.0, 0.0) - DVec3::X * -1.0).length() < 1e-12);
+        assert!((way(1.2, 1.3) - DVec3::Z * -0.3).length() < 1e-12);
+        let normal = DVec3::new(2.0, 0.0, 1.0).normalize();
+        let off = DVec3::new(1.75, 0.0, 0.5) + normal * 0.1;
+        assert!((spindle.way_back(off) + normal * 0.1).length() < 1e-12);
+        for refused in [&SPINDLE[..1], &[(0.0, 1.0), (0.0, 2.0)], &[(0.0, 1.0), (1.0, 0.1), (2.0, 1.0)]] {
+            let discs: &'static [(f64, f64)] = Box::leak(refused.to_vec().into_boxed_slice());
+            let rim = Rim::new(Workspace::Discs { centre: DVec3::ZERO, discs }, 1.0, 0.0);
+            assert_eq!(rim, Err(WorkspaceError::Discs));
+        }
+    }
+
     #[test]
     fn it_gives_back_what_it_took() {
-        let rim = Rim::new(Workspace::Sphere { centre: DVec3::ZERO, radius: 0.1 }, 200.0, 0.005).unwrap();
+        let round = Workspace::Sphere { centre: DVec3::ZERO, radius: 0.1 };
+        let discs = Workspace::Discs { centre: DVec3::ZERO, discs: &[(-0.1, 0.05), (0.0, 0.1), (0.01, 0.1)] };
+        [round, discs].into_iter().for_each(gives_back);
+    }
+
+    fn gives_back(workspace: Workspace) {
+        let rim = Rim::new(workspace, 200.0, 0.005).unwrap();
         let place = |turn: f64| {
             let angle = std::f64::consts::TAU * turn;
             DVec3::new(0.1 + 0.03 * angle.cos(), 0.04 * angle.sin(), 0.02 * (2.0 * angle).sin())

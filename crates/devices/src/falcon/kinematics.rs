@@ -28,6 +28,11 @@ const MIN_SINE: f64 = 0.05;
 /// above 0.1.
 const MIN_DETERMINANT: f64 = 0.01;
 
+/// Where the grip moves freely: depth (z) and radius of discs about the z axis, m, from a little within what the legs reach.
+/// A pyramid more than a cylinder: narrow at its front and back.
+pub const FREE_DISCS: [(f64, f64); 5] =
+    [(0.09, 0.012), (0.11, 0.06), (0.13, 0.06), (0.15, 0.048), (0.17, 0.022)];
+
 /// Why a place or an angle was refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum PoseError {
@@ -264,6 +269,24 @@ mod tests {
             let turned = DVec3::from_array(kinematics.inverse(place + moved).unwrap())
                 - DVec3::from_array(kinematics.inverse(place - moved).unwrap());
             assert!((torques.dot(turned) - force.dot(moved) * 2.0).abs() < 1e-12, "at {place}");
+        }
+    }
+
+    /// With either shipped set, so that the rim is felt before the arms' own stops.
+    #[test]
+    fn every_free_place_is_reached() {
+        for name in Geometry::NAMES {
+            let kinematics = Kinematics::new(Geometry::load(name).unwrap());
+            for pair in FREE_DISCS.windows(2) {
+                for n in 0..200 {
+                    let share = f64::from(n % 10) / 9.0;
+                    let between = |a: f64, b: f64| a + (b - a) * share;
+                    let (z, radius) = (between(pair[0].0, pair[1].0), between(pair[0].1, pair[1].1));
+                    let turn = f64::from(n) * 0.37;
+                    let place = DVec3::new(radius * turn.cos(), radius * turn.sin(), z);
+                    assert!(kinematics.jacobian(place).is_ok(), "{name}: {place}");
+                }
+            }
         }
     }
 

@@ -35,7 +35,7 @@ pub use emulation::{EmulatedFalcon, EmulatedHand, EmulatedTransport, Trouble};
 pub use error::{FalconError, Stage, UDEV_RULE, UDEV_RULE_FILE};
 pub use firmware::{Firmware, FirmwareError};
 pub use geometry::{Geometry, GeometryError};
-pub use kinematics::{Kinematics, PoseError};
+pub use kinematics::{FREE_DISCS, Kinematics, PoseError};
 pub use motors::{MAX_MOTOR_COUNTS, motor_counts, torques_of};
 pub use packet::{Command, Leds, PACKET_BYTES, Reply};
 pub use stream::ByteStream;
