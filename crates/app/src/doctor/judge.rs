@@ -2,6 +2,7 @@
 
 use super::check::{Check, NOT_KNOWN, on_linux};
 use super::timer::Lateness;
+use hapflow_devices::falcon::{UDEV_RULE, UDEV_RULE_FILE};
 use hapflow_realtime::{Grant, Refusal};
 use std::path::{Path, PathBuf};
 
@@ -11,11 +12,8 @@ pub const C_ABI: u32 = 1;
 const LATE_US: f64 = 500.0;
 /// Vendor and product of the Novint Falcon.
 pub const FALCON: (u16, u16) = (0x0403, 0xcb48);
-/// Lets whoever sits at the machine use a Falcon.
-const FALCON_RULE: &str =
-    r#"SUBSYSTEM=="usb", ATTR{idVendor}=="0403", ATTR{idProduct}=="cb48", MODE="0660", TAG+="uaccess""#;
-/// Why nobody needs a Falcon today.
-const NO_DRIVER: &str = "this build has no Falcon driver yet";
+/// What is missing where there is no Falcon.
+const NO_FALCON: &str = "nothing to do: without a Falcon the simulated hand feels";
 /// Makes and joins the group that the lines for `limits.conf` are about.
 const JOIN: &str = "run `sudo groupadd -rf realtime` and `sudo usermod -aG realtime $USER`, log in anew";
 
@@ -230,33 +228,33 @@ pub enum Usb {
     },
 }
 
-/// Access to USB, where haptic devices will be.
+/// Access to USB, where haptic devices are.
 pub fn usb(usb: &Usb) -> Check {
     let falcon = match usb {
         Usb::Absent => {
             let found = on_linux("no /dev/bus/usb, as in a container");
-            return Check::ok("usb", found).and(format!("nothing to do: {NO_DRIVER}"));
+            return Check::ok("usb", found).and(NO_FALCON);
         }
         Usb::Unreadable(cause) => {
-            let advice = format!("for later ({NO_DRIVER}): `sudo chmod a+rx /dev/bus/usb /dev/bus/usb/*`");
+            let advice = "for a Falcon: `sudo chmod a+rx /dev/bus/usb /dev/bus/usb/*`".to_owned();
             return Check::warning("usb", format!("/dev/bus/usb cannot be read: {cause}"), on_linux(advice));
         }
         Usb::Readable { devices, falcon: None } => {
             let found = format!("/dev/bus/usb readable; {devices} devices, no Novint Falcon (0403:cb48)");
-            return Check::ok("usb", found).and(format!("nothing to do: {NO_DRIVER}"));
+            return Check::ok("usb", found).and(NO_FALCON);
         }
         Usb::Readable { falcon: Some(falcon), .. } => falcon,
     };
     let node = falcon.node.display();
     match &falcon.refused {
         None => Check::ok("usb", format!("Novint Falcon at {node}, writable"))
-            .and(format!("nothing to do: {NO_DRIVER}")),
+            .and("`hapflow falcon test` tries it, docs/falcon.md says more"),
         Some(cause) => Check::warning(
             "usb",
             format!("Novint Falcon at {node}, not writable: {cause}"),
             on_linux(format!(
-                "for later ({NO_DRIVER}): put `{FALCON_RULE}` into /etc/udev/rules.d/70-novint-falcon.rules, run \
-                 `sudo udevadm control --reload`, and plug it in anew"
+                "run `sudo hapflow falcon udev`, which puts `{UDEV_RULE}` into {UDEV_RULE_FILE}, then `sudo udevadm \
+                 control --reload`, and plug it in anew"
             )),
         ),
     }

@@ -6,7 +6,7 @@ use crate::falcon::{FirmwareError, GeometryError, LinkError};
 pub const UDEV_RULE: &str = "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\", MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"";
 
 /// Where that rule belongs.
-pub const UDEV_RULE_FILE: &str = "/etc/udev/rules.d/60-novint-falcon.rules";
+pub const UDEV_RULE_FILE: &str = "/etc/udev/rules.d/70-novint-falcon.rules";
 
 /// A stage of the start, as it is named in errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -34,7 +34,7 @@ pub enum LinkError {
 }
 
 /// USB transfers to one serial chip, interface 0, bulk endpoints 0x81 and 0x02. One thread uses it at a time. Reading
-/// and writing allocate nothing and take no lock on a real device.
+/// and writing allocate and lock nothing of their own; libusb takes a few bytes and its own uncontended locks for a transfer.
 pub trait Transport: Send {
     /// The time, ns, on a clock that never goes back.
     fn now_ns(&self) -> u64;
