@@ -1,8 +1,9 @@
 //! `hapflow falcon` and `hapflow run` with a Falcon that is emulated down to USB transfers, in real time.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 fn hapflow(words: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_hapflow")).args(words).output().unwrap()
@@ -72,6 +73,27 @@ fn the_demo_runs_from_power_on_to_summary() {
     assert!(order.is_sorted(), "{err}");
     assert!(out.contains("mean force") && out.contains("late ticks"), "{out}");
     assert!(folder.join("summary.json").is_file());
+}
+
+/// As Ctrl-C does: the run ends by itself, with its results.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupt_ends_a_run_with_its_results() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("interrupted");
+    let words = ["run", "tap", "--device", "emulated-falcon", "--realtime", "--duration", "600"];
+    let mut run = Command::new(env!("CARGO_BIN_EXE_hapflow"))
+        .args(words)
+        .args(["--set", "run.backend=analytic-jet", "--out", folder.to_str().unwrap()])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut told = BufReader::new(run.stderr.take().unwrap()).lines();
+    assert!(told.any(|line| line.unwrap() == "homed"));
+    assert!(Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap().success());
+    let output = run.wait_with_output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    assert!(String::from_utf8(output.stdout).unwrap().contains("mean force"));
 }
 
 #[test]
