@@ -76,6 +76,15 @@ struct Leg {
     gradient: DVec3,
 }
 
+/// A place of the grip with its arms.
+struct Pose {
+    position: DVec3,
+    /// Arm angles, rad.
+    angles: DVec3,
+    /// Their gradients, row by row, rad/m.
+    jacobian: DMat3,
+}
+
 impl Kinematics {
     /// The kinematics of `geometry`.
     pub fn new(geometry: Geometry) -> Self {
@@ -101,12 +110,7 @@ impl Kinematics {
     /// # Errors
     /// As [`inverse`](Self::inverse).
     pub fn jacobian(&self, position: DVec3) -> Result<DMat3, PoseError> {
-        let [a, b, c] = self.legs(position)?.map(|leg| leg.gradient);
-        let volume = a.normalize().dot(b.normalize().cross(c.normalize()));
-        if volume.abs() < MIN_DETERMINANT {
-            return Err(PoseError::Singular { position });
-        }
-        Ok(DMat3::from_cols(a, b, c).transpose())
+        Ok(self.pose(position)?.jacobian)
     }
 
     /// Where the arms at `angles` (rad) hold the grip, m: by Newton's method from `near`, the last place, or from the
@@ -144,28 +148,39 @@ impl Kinematics {
     }
 
     /// Newton's method from `p`, held back where a step leaves the reach.
-    fn search(&self, wanted: DVec3, mut p: DVec3) -> Option<DVec3> {
+    fn search(&self, wanted: DVec3, p: DVec3) -> Option<DVec3> {
+        let mut pose = self.pose(p).ok()?;
         for _ in 0..MAX_STEPS {
-            let legs = self.legs(p).ok()?;
-            let miss = wanted - DVec3::from_array(legs.map(|leg| leg.angle));
-            let step = self.jacobian(p).ok()?.inverse() * miss;
+            let step = pose.jacobian.inverse() * (wanted - pose.angles);
             if step.length() < FOUND_M {
-                return Some(p);
+                return Some(pose.position);
             }
-            p = self.advance(p, step.clamp_length_max(MAX_STEP_M))?;
+            pose = self.advance(&pose, step.clamp_length_max(MAX_STEP_M))?;
         }
         None
     }
 
-    /// `p` moved by `step`, or by the largest half, quarter … of it that the legs reach.
-    fn advance(&self, p: DVec3, mut step: DVec3) -> Option<DVec3> {
+    /// `pose` moved by `step`, or by the largest half, quarter … of it that the legs reach.
+    fn advance(&self, pose: &Pose, mut step: DVec3) -> Option<Pose> {
         for _ in 0..20 {
-            if self.jacobian(p + step).is_ok() {
-                return Some(p + step);
+            if let Ok(next) = self.pose(pose.position + step) {
+                return Some(next);
             }
             step *= 0.5;
         }
         None
+    }
+
+    /// The arms' angles and their gradients at `position`, where the legs hold the grip in all directions.
+    fn pose(&self, position: DVec3) -> Result<Pose, PoseError> {
+        let legs = self.legs(position)?;
+        let [a, b, c] = legs.map(|leg| leg.gradient);
+        let volume = a.normalize().dot(b.normalize().cross(c.normalize()));
+        if volume.abs() < MIN_DETERMINANT {
+            return Err(PoseError::Singular { position });
+        }
+        let angles = DVec3::from_array(legs.map(|leg| leg.angle));
+        Ok(Pose { position, angles, jacobian: DMat3::from_cols(a, b, c).transpose() })
     }
 
     fn legs(&self, position: DVec3) -> Result<[Leg; 3], PoseError> {
