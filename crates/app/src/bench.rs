@@ -135,17 +135,19 @@ fn panel(points: &[Point]) -> Chart {
     let mut who: Vec<_> = points.iter().map(|p| &p.who).collect();
     who.dedup();
     let each = who.into_iter().map(|w| {
-        let peer = points.iter().any(|p| p.who == *w && p.date.is_some());
+        let peer = points.iter().any(|p| p.who == *w && p.front.is_none());
         let series =
             Series::new("", crosses(&line(&|p| p.who == *w))).coloured(if peer { PEERS } else { OURS });
         if peer { series } else { series.faint() }
     });
     let named = |name: &str, colour| Series::new(name, Vec::new()).coloured(colour);
     let front = Series::new("front", line(&|p| p.front == Some(true))).coloured(OURS);
-    let dates = points.iter().filter_map(|p| p.date).next();
-    let peers = dates.map(|date| named(&format!("peers, measured {date}"), PEERS));
+    let peers = points.iter().find(|p| p.front.is_none()).map(|_| {
+        let date = points.iter().find_map(|p| p.date);
+        named(&date.map_or("peers".into(), |date| format!("peers (dated: {date})")), PEERS)
+    });
     Chart {
-        title: points.first().map_or(String::new(), |p| p.case.into()),
+        title: points.first().map_or(String::new(), |p| p.case.clone()),
         x_label: "CPU time for a simulated second (s)".into(),
         y_label: "error (%)".into(),
         series: each.chain([front]).chain(peers).collect(),
