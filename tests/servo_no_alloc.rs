@@ -61,7 +61,7 @@ fn a_hundred_thousand_ticks_allocate_nothing() {
     let filters =
         ["none", "bartlett-hann:11@fluid", "hann:33@servo", "butterworth:50:4@servo", "one-euro:5:0.5@servo"];
     for filter in filters {
-        for coupling in ["direct", "momentum"] {
+        for coupling in ["local", "direct", "momentum"] {
             let mut scene = jet(&[
                 ("run.backend", word("analytic-jet")),
                 ("run.filter", word(filter)),

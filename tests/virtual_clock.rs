@@ -54,6 +54,7 @@ fn scheduled_changes_act_at_their_time() {
     let text = format!("{}\n[[change]]\nat_s = 0.15\nsource.tap.on = false\n", common::JET);
     let mut scene = hapflow::engine::parse(&text, "jet").unwrap();
     settings::set(&mut scene, "run.backend", &word("analytic-jet")).unwrap();
+    settings::set(&mut scene, "run.coupling", &word("direct")).unwrap();
     let rows = run(&scene, 1).recording.rows;
     let felt = |t: f64| rows[(t * 1000.0) as usize].raw.force.length();
     // Frames of 10 ms, published one later: the change is in the frame that ends at 0.15 s, seen from 0.16 s.

@@ -76,7 +76,7 @@ pub struct RunArgs {
     /// Replay a recorded motion instead of the scene's device: a CSV file (time_s,x_m,y_m,z_m) or a shipped name.
     #[arg(long, value_name = "FILE|NAME")]
     pub motion: Option<String>,
-    /// How tool and fluid meet: direct, momentum (the thesis's).
+    /// How tool and fluid meet: local, direct, momentum (the thesis's).
     #[arg(long, value_name = "NAME")]
     pub coupling: Option<String>,
     /// What smooths the force: none, bartlett-hann:11@fluid, boxcar:10@servo, butterworth:50, one-euro:5:0.5, auto.

@@ -10,6 +10,9 @@ const SHIPPED: &[(&str, &str)] = &[
     ("tank", include_str!("../../../scenes/tank.toml")),
     ("paddle", include_str!("../../../scenes/paddle.toml")),
     ("bowl", include_str!("../../../scenes/bowl.toml")),
+    ("stir-water", include_str!("../../../scenes/stir-water.toml")),
+    ("stir-honey", include_str!("../../../scenes/stir-honey.toml")),
+    ("dip", include_str!("../../../scenes/dip.toml")),
 ];
 
 /// Names and texts of the shipped scenes.

@@ -264,7 +264,7 @@ impl Default for Scene {
                 duration: 5.0,
                 fluid_hz: 100.0,
                 fluid_delay: 1.0,
-                coupling: CouplingKind::Direct,
+                coupling: CouplingKind::Local,
                 filter: None,
                 backend: BackendKind::Cpu,
                 device: DeviceKind::Hand,

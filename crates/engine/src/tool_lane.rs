@@ -3,7 +3,7 @@
 use crate::BodyReport;
 use crate::servo::PathSample;
 use glam::DVec3;
-use hapflow_fluid::{BodyConfig, BodyDrive, BodyMotion, BodySample};
+use hapflow_fluid::{BodyConfig, BodyDrive, BodyMotion, BodySample, Shape};
 use hapflow_haptics::{
     Answer, BodyState, Coupling, Drive, Forecast, FrameEnd, Law, LocalModel, Neighbourhood, Rendering,
     ToolState, Wrench,
@@ -28,6 +28,8 @@ pub(crate) struct ToolLane {
     /// Where the last frame's path ended.
     path_end: BodySample,
     forecast: Forecast<TICKS>,
+    /// Whether the tool's path is carried on.
+    leads: bool,
     /// The way of the frame, for the coupling.
     path_taken: Vec<ToolState>,
     /// Time from the end of a frame until its model is handed over, s, over the last frames.
@@ -74,6 +76,7 @@ impl ToolLane {
             last: PathSample { time_s: 0.0, tool: ToolState::at(position) },
             path_end: BodySample::at(position),
             forecast: Forecast::new(ToolState::at(position)),
+            leads: false,
             path_taken: Vec::with_capacity(MOST_SAMPLES + 2),
             delay_s: 0.0,
         }
@@ -81,6 +84,9 @@ impl ToolLane {
 
     /// Takes the path of a frame, and lets the coupling say how the body moves.
     pub fn begin_frame(&mut self, config: &BodyConfig, frame: FrameTime) {
+        // What goes along with a plate or a rod depends on its direction: with one mass for all of them, a path that is
+        // carried on would howl.
+        self.leads = self.coupling.leads() && matches!(config.shape, Shape::Sphere { .. });
         let device = self.take_path(frame);
         let body = self.body_state(config);
         self.drive = match self.coupling.begin_frame(&body, &device, frame.length_s) {
@@ -177,7 +183,7 @@ impl ToolLane {
                 self.samples.push(sample(next.time_s, &next.tool));
             }
         }
-        if self.coupling.leads() {
+        if self.leads {
             return self.lead_path(frame);
         }
         let end = self.tool_at(frame.end_s, frame);
@@ -188,7 +194,7 @@ impl ToolLane {
 
     /// How far ahead of the frame's end the path ends, s.
     fn lead_s(&self, frame: FrameTime) -> f64 {
-        if !self.coupling.leads() {
+        if !self.leads {
             return 0.0;
         }
         // The frame's mean is late by half of the frame, and blended in.

@@ -5,6 +5,8 @@ use glam::{DQuat, DVec3};
 
 /// Longest time ahead that a hand goes straight on, s.
 const LONGEST_S: f64 = 0.12;
+/// Faster than any hand, m/s: such a step is a jump, after which nothing is known.
+const JUMP_SPEED: f64 = 20.0;
 
 /// Where the hand is and how fast, by the parabola nearest to its newest `TICKS` places (least squares), carried on.
 ///
@@ -32,6 +34,10 @@ impl<const TICKS: usize> Forecast<TICKS> {
         let last = (self.next + TICKS - 1) % TICKS;
         if !time_s.is_finite() || !tool.is_finite() || (self.count > 0 && time_s <= self.times_s[last]) {
             return;
+        }
+        let way = tool.position.distance(self.places[last]);
+        if way > JUMP_SPEED * (time_s - self.times_s[last]) {
+            self.count = 0;
         }
         (self.times_s[self.next], self.places[self.next], self.newest) = (time_s, tool.position, *tool);
         self.next = (self.next + 1) % TICKS;
@@ -125,6 +131,12 @@ mod tests {
         let (exact, rounded) = (fed(swing).at(0.141, 1.0), fed(rounded).at(0.141, 1.0));
         assert!((exact.position - swing(0.141)).length() < 3e-4, "{}", exact.position);
         assert!((exact.position - rounded.position).length() < 2e-4, "{}", rounded.position - exact.position);
+    }
+
+    #[test]
+    fn after_a_jump_it_rests() {
+        let jumped = fed(|t| if t < 0.09 { DVec3::ZERO } else { DVec3::Y });
+        assert_eq!((jumped.at(0.14, 1.0).position, jumped.at(0.14, 1.0).velocity), (DVec3::Y, DVec3::ZERO));
     }
 
     #[test]

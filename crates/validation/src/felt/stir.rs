@@ -61,7 +61,9 @@ fn stirred(bench: &mut Bench<'_>, way: &Way) -> Result<Vec<Measure>, ValidationE
     let truth = bench.truth_of(&trace)?;
     let parts = Parts::new(1.0 / hz);
     let [sent, mean] = [&trace.sent, &truth.mean].map(|series| parts.forces(series, &trace.path));
-    let apart = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| (a[k] / b[k] - 1.0).abs());
+    // Over the resistance at the beginning: in thick fluid what comes after is next to nothing.
+    let scale = parts.resistance(&truth.mean, &trace.path).abs();
+    let apart = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| (a[k] - b[k]).abs() / scale);
     let errors: [f64; 3] = apart(sent, mean);
     let floor =
         |k: usize| truth.floor(|a, b| apart(parts.forces(a, &trace.path), parts.forces(b, &trace.path))[k]);
@@ -101,20 +103,27 @@ impl Parts {
         Self { turn, begin, stop: begin + (TURNS * turn as f64) as usize }
     }
 
-    /// By how much the resistance falls from the first third of a turn to the last turn; how the swirl pushes the hand that has
-    /// stopped; and how it does a while later; N.
+    /// By how much the resistance falls until the last turn; how the swirl pushes the hand that has stopped; and how it does a
+    /// while later; N.
     fn forces(&self, series: &[DVec3], path: &[DVec3]) -> [f64; 3] {
-        let along = |from: usize, to: usize| {
-            let part = from..to.min(series.len());
-            let ticks = part.len().max(1) as f64;
-            part.map(|n| series[n].dot(swirl(path[n]))).sum::<f64>() / ticks
-        };
-        let first = along(self.begin, self.begin + self.turn / 3);
-        let last = along(self.stop - self.turn, self.stop);
+        let last = along(series, path, self.stop - self.turn, self.stop);
         let still = self.stop + (1e3 * (RISE_S * RISE.len() as f64 + STOP)) as usize;
         let half = still + (series.len() - still) / 2;
-        [last - first, along(still, half), along(half, series.len())]
+        let carry = along(series, path, still, half);
+        [last - self.resistance(series, path), carry, along(series, path, half, series.len())]
     }
+
+    /// Mean force along the swirl in the first third of a turn, N.
+    fn resistance(&self, series: &[DVec3], path: &[DVec3]) -> f64 {
+        along(series, path, self.begin, self.begin + self.turn / 3)
+    }
+}
+
+/// Mean force along the swirl from one tick to another, N.
+fn along(series: &[DVec3], path: &[DVec3], from: usize, to: usize) -> f64 {
+    let part = from..to.min(series.len());
+    let ticks = part.len().max(1) as f64;
+    part.map(|n| series[n].dot(swirl(path[n]))).sum::<f64>() / ticks
 }
 
 /// The way that the stirred fluid goes at `place`: from z towards x.
