@@ -1,0 +1,96 @@
+//! The adapters to other haptics libraries, in doubles of those: compiled with all warnings, and run.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod c_support;
+
+use c_support::{Variant, compile, library, root, scratch};
+use std::ffi::{OsStr, OsString};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// What an adapter is built of, in paths from the root.
+struct Adapter {
+    name: &'static str,
+    includes: &'static [&'static str],
+    sources: &'static [&'static str],
+}
+
+const COMMON: Adapter = Adapter { name: "common", includes: &[], sources: &[] };
+const HAPI: Adapter = Adapter {
+    name: "hapi",
+    includes: &["cpp/adapters/hapi", "tests/doubles/hapi"],
+    sources: &["cpp/adapters/hapi/FluidRenderer.cpp", "cpp/adapters/hapi/Shapes.cpp"],
+};
+const CHAI3D: Adapter =
+    Adapter { name: "chai3d", includes: &["cpp/adapters/chai3d", "tests/doubles/chai3d"], sources: &[] };
+
+impl Adapter {
+    /// Flags that a strict program compiles it with.
+    fn flags(&self) -> Vec<OsString> {
+        let strict =
+            ["-Wconversion", "-Wsign-conversion", "-Wshadow", "-Wold-style-cast", "-pthread", "-fPIC"];
+        let mut flags: Vec<OsString> = strict.iter().map(OsString::from).collect();
+        for include in ["cpp/include", "cpp/adapters/common"].iter().chain(self.includes) {
+            flags.extend(["-I".into(), root().join(include).into_os_string()]);
+        }
+        flags
+    }
+
+    /// Compiles a program of it, or with `-shared` a library.
+    fn link(&self, main: &[&str], name: &str, more: &[&str]) -> PathBuf {
+        let (made, library) = (scratch().join(name), library(Variant::Shipped));
+        let mut args = self.flags();
+        args.extend(more.iter().map(OsString::from));
+        args.extend(main.iter().chain(self.sources).map(|s| root().join(s).into_os_string()));
+        args.extend(["-L".into(), library.parent().unwrap().as_os_str().into(), "-lhapflow".into()]);
+        args.extend(["-ldl".into(), "-o".into(), made.clone().into_os_string()]);
+        let args: Vec<&OsStr> = args.iter().map(OsString::as_os_str).collect();
+        compile("c++", "c++17", &args).unwrap_or_else(|e| panic!("{e}"));
+        made
+    }
+}
+
+/// Runs a program with the shipped library.
+fn run(program: &Path, args: &[&OsStr]) -> Output {
+    let library = library(Variant::Shipped);
+    Command::new(program).args(args).env("LD_LIBRARY_PATH", library.parent().unwrap()).output().unwrap()
+}
+
+/// What it wrote, if it was content.
+fn said(output: &Output) -> String {
+    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{}\n{out}\n{err}", output.status);
+    out.into_owned()
+}
+
+fn passes(adapter: &Adapter) {
+    let main = format!("tests/adapters/{}.cpp", adapter.name);
+    // LINUX is CHAI3D's, and nothing to the others.
+    let program = adapter.link(&[&main], &format!("adapter-{}", adapter.name), &["-DLINUX"]);
+    assert_eq!(said(&run(&program, &[])), "all passed\n");
+}
+
+#[test]
+fn what_they_share_does_what_it_says() {
+    passes(&COMMON);
+}
+
+#[test]
+fn the_hapi_adapter_does_what_it_says() {
+    passes(&HAPI);
+}
+
+#[test]
+fn the_chai3d_adapter_does_what_it_says() {
+    passes(&CHAI3D);
+}
+
+#[test]
+fn chai3d_without_its_platform_is_refused() {
+    let (source, mut args) = (scratch().join("adapter-no-platform.cpp"), CHAI3D.flags());
+    std::fs::write(&source, "#include <hapflow_chai3d.hpp>\n").unwrap();
+    args.extend(["-fsyntax-only".into(), source.into_os_string()]);
+    let args: Vec<&OsStr> = args.iter().map(OsString::as_os_str).collect();
+    let error = compile("c++", "c++17", &args).unwrap_err();
+    assert!(error.contains("#error \"define LINUX, MACOSX, WIN32 or WIN64"), "{error}");
+}
