@@ -21,6 +21,15 @@ const HAPI: Adapter = Adapter {
     includes: &["cpp/adapters/hapi", "tests/doubles/hapi"],
     sources: &["cpp/adapters/hapi/FluidRenderer.cpp", "cpp/adapters/hapi/Shapes.cpp"],
 };
+const H3D: Adapter = Adapter {
+    name: "h3d",
+    includes: &["cpp/adapters/hapi", "tests/doubles/hapi", "tests/doubles/h3d"],
+    sources: &[
+        "cpp/adapters/hapi/FluidRenderer.cpp",
+        "cpp/adapters/hapi/Shapes.cpp",
+        "cpp/adapters/h3d/HapflowFluidRenderer.cpp",
+    ],
+};
 const CHAI3D: Adapter =
     Adapter { name: "chai3d", includes: &["cpp/adapters/chai3d", "tests/doubles/chai3d"], sources: &[] };
 
@@ -78,6 +87,34 @@ fn what_they_share_does_what_it_says() {
 #[test]
 fn the_hapi_adapter_does_what_it_says() {
     passes(&HAPI);
+}
+
+#[test]
+fn the_node_of_h3d_does_what_it_says() {
+    passes(&H3D);
+}
+
+#[test]
+fn a_hapi_program_loads_the_adapter_by_its_file() {
+    let plugin = HAPI.link(&[], "libhapflow_hapi.so", &["-shared"]);
+    // HAPI's list is one in the process, as where it is a shared library.
+    let host = Adapter { sources: &[], ..HAPI };
+    let host = host.link(&["tests/adapters/hapi_host.cpp"], "hapi-host", &["-rdynamic"]);
+    assert_eq!(said(&run(&host, &[plugin.as_os_str()])), "HapflowFluid\nstepped\n");
+}
+
+#[test]
+fn the_examples_run_and_few_of_their_lines_are_the_fluids() {
+    for (adapter, example) in [(&HAPI, "hapi_tap"), (&CHAI3D, "chai3d_tank")] {
+        let source = format!("examples/{example}.cpp");
+        let text = std::fs::read_to_string(root().join(&source)).unwrap();
+        let lines = text.lines().filter(|l| !l.trim_start().starts_with("//"));
+        let ours = lines.filter(|l| l.contains("hapflow") || l.contains("Hapflow") || l.contains("fluid"));
+        assert!(ours.count() <= 10, "{example}");
+        let program = adapter.link(&[&source], example, &["-DLINUX"]);
+        let out = said(&run(&program, &[OsStr::new("0.3")]));
+        assert!(out.starts_with("force ") && !out.contains("nan"), "{out}");
+    }
 }
 
 #[test]

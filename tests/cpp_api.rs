@@ -201,6 +201,9 @@ fn what_is_installed_is_complete_and_knows_no_place() {
         "share/hapflow/scenes/tap.toml",
         "share/hapflow/examples/tap.c",
         "share/hapflow/examples/cmake-consumer/CMakeLists.txt",
+        "share/hapflow/adapters/CMakeLists.txt",
+        "share/hapflow/adapters/common/hapflow/adapter/fluid.hpp",
+        "share/hapflow/adapters/hapi/LICENSE",
     ] {
         assert!(tree.join(file).metadata().unwrap_or_else(|e| panic!("{file}: {e}")).len() > 0, "{file}");
     }
@@ -280,4 +283,23 @@ fn a_project_builds_with_find_package() {
     let broken = configure(&tree);
     let err = String::from_utf8_lossy(&broken.stderr);
     assert!(!broken.status.success() && err.contains("libhapflow.so"), "{err}");
+}
+
+#[test]
+fn the_adapters_that_have_no_stack_are_left_out_in_a_line_each() {
+    if !there("cmake") {
+        return;
+    }
+    let (tree, build) = (installed("cpp-adapters"), scratch().join("cpp-adapters-build"));
+    drop(fs::remove_dir_all(&build));
+    let mut option = OsString::from("-DCMAKE_PREFIX_PATH=");
+    option.push(&tree);
+    let mut cmake = Command::new("cmake");
+    cmake.arg("-S").arg(tree.join("share/hapflow/adapters")).arg("-B").arg(&build).arg(option);
+    let out = said(&cmake.output().unwrap());
+    // No machine of ours has one of the stacks.
+    for (stack, target) in [("CHAI3D", "adapter"), ("HAPI", "adapter"), ("H3D", "node")] {
+        let lines = out.lines().filter(|l| l.contains(&format!("the {stack} {target} is left out")));
+        assert_eq!(lines.count(), 1, "{out}");
+    }
 }

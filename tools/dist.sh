@@ -85,6 +85,10 @@ fill_in cpp/pkgconfig/hapflow.pc.in lib/pkgconfig/hapflow.pc
 put share/doc/hapflow README.md LICENSE-APACHE LICENSE-MIT THIRD-PARTY-NOTICES.md CHANGELOG.md
 put share/hapflow/scenes scenes/*.toml
 put share/hapflow/examples examples/*.c examples/*.cpp examples/*.py
+for adapter in cpp/adapters/*/; do
+    (cd cpp && find "${adapter#cpp/}" -type f) | while read -r file; do put "share/hapflow/$(dirname "$file")" "cpp/$file"; done
+done
+put share/hapflow/adapters cpp/adapters/CMakeLists.txt
 put share/hapflow/examples/cmake-consumer examples/cmake-consumer/{CMakeLists.txt,main.cpp}
 
 # --- Where it goes --------------------------------------------------------------------------------

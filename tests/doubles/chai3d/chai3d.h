@@ -113,6 +113,7 @@ public:
     }
     virtual std::string getClassName() { return "GenericObject"; }
     void setLocalPos(const cVector3d& p) { pos = p; }
+    void setLocalPos(double x, double y, double z) { pos = {x, y, z}; }
     void setLocalRot(const cMatrix3d& r) { rot = r; }
     // The world itself lies in the origin here.
     cVector3d getGlobalPos() const { return pos; }
