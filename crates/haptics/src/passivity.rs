@@ -3,10 +3,10 @@
 use glam::DVec3;
 
 /// Energy that the coupling may have given beyond what it took since its lowest, J.
-const BUDGET_J: f64 = 1.5e-4;
+const BUDGET_J: f64 = 2e-4;
 /// Time in which what was given is forgotten, s. The newest model is ahead of what is right where its law is not exact, so
 /// that a right force gives or takes a little all the time.
-const FORGET_S: f64 = 0.5;
+const FORGET_S: f64 = 0.7;
 /// Share of the budget from which on the controller acts.
 const ACTS_FROM: f64 = 0.5;
 /// Faster than any hand: such a step is a jump and does no work, m/s.
@@ -17,7 +17,7 @@ const JUMP_SPEED: f64 = 20.0;
 ///
 /// The observer sums ∫ F_own · dx and knows its rise since its lowest (after Hannaford & Ryu 2002,
 /// doi:10.1109/70.988969, on the coupling alone). The controller takes from the part of the force that pushes along
-/// the motion a share that grows with the rise, so that this never passes 0.15 mJ (and as much again each half second, for it
+/// the motion a share that grows with the rise, so that this never passes 0.2 mJ (and as much again each 0.7 s, for it
 /// is forgotten at that rate), and nothing while the force brakes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Passivity {
