@@ -306,19 +306,14 @@ pub struct FluidConfig {
 }
 
 impl FluidConfig {
-    /// Highest speed that drops and the sources that are on can give to the fluid, m/s; the measure of the speed of sound.
+    /// Highest speed that drops and sources, on or off, can give to the fluid, m/s; the measure of the speed of sound.
     pub fn reference_speed(&self) -> f64 {
         let g = self.settings.gravity.length();
         let drop = self.world.bounds.max.y - self.world.bounds.min.y;
         let pool = self.world.pools.iter().map(|p| p.max.y - p.min.y).fold(0.0, f64::max);
         let floor = self.floor_height();
         let fall = |s: &Source| (s.position.y - floor).clamp(0.0, drop);
-        let jet = self
-            .world
-            .sources
-            .iter()
-            .filter(|s| s.on)
-            .map(|s| (s.speed * s.speed + 2.0 * g * fall(s)).sqrt());
+        let jet = self.world.sources.iter().map(|s| (s.speed * s.speed + 2.0 * g * fall(s)).sqrt());
         // A sheet one particle thick draws itself in at this speed (Taylor and Culick).
         let sheet =
             2.0 * self.settings.surface_tension / (self.settings.rest_density * self.settings.spacing);

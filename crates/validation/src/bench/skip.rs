@@ -172,9 +172,12 @@ fn features() -> Vec<Pair> {
         ),
         pair(
             "source-off",
-            "a source that is off",
+            "a source that is off, at the same speed of sound: its jet may come, and would set that",
             Some(NOISE),
-            with(&plain, |_, world| world.sources.push(source(false))),
+            with(&plain, |settings, world| {
+                settings.sound_speed = plain.sound_speed();
+                world.sources.push(source(false));
+            }),
         ),
         pair(
             "empty-sink",
