@@ -50,6 +50,9 @@ pub enum Command {
     /// The Novint Falcon: find, load, home and test it, and its mathematics on files.
     #[command(subcommand)]
     Falcon(FalconCommand),
+    /// Libraries that claim hapflow's C interface.
+    #[command(subcommand)]
+    Plugin(PluginCommand),
     /// Check this machine and say what to do: cores, SIMD, real-time rights, timer, USB, output.
     Doctor(DoctorArgs),
 }
@@ -109,6 +112,16 @@ pub struct RunArgs {
     /// Print the summary as JSON and nothing else.
     #[arg(long)]
     pub json: bool,
+}
+
+/// What to do with a library.
+#[derive(Debug, Subcommand)]
+pub enum PluginCommand {
+    /// Put a library through its paces: versions, misuse, NaN, threads, timing, memory. Exit code 0 only if all holds.
+    Check {
+        /// The library, as target/release/libhapflow.so. It runs in this process.
+        file: PathBuf,
+    },
 }
 
 /// Arguments of `devices`.

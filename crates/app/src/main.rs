@@ -12,6 +12,7 @@ mod falcon;
 mod list;
 mod meter;
 mod outputs;
+mod plugin;
 mod run;
 mod stop;
 mod stress;
@@ -47,6 +48,8 @@ fn dispatch(cli: cli::Cli) -> Result<ExitCode, run::Failure> {
         cli::Command::Bench(args) => bench::bench(&args)?,
         cli::Command::Stress(args) if stress::stress(&args)? => {}
         cli::Command::Stress(_) => return Ok(ExitCode::FAILURE),
+        cli::Command::Plugin(command) if plugin::plugin(&command)? => {}
+        cli::Command::Plugin(_) => return Ok(ExitCode::FAILURE),
         cli::Command::Doctor(args) if doctor::doctor(&args) => {}
         cli::Command::Doctor(_) => return Ok(ExitCode::FAILURE),
     }

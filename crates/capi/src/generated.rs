@@ -1,5 +1,6 @@
 //! The header in Rust, by tools/bindings.sh: not to be edited.
-#![allow(dead_code, non_camel_case_types, clippy::all)]
+#![allow(dead_code, missing_docs, non_camel_case_types, unsafe_op_in_unsafe_fn, clippy::all)]
+#![allow(clippy::undocumented_unsafe_blocks, clippy::missing_safety_doc)]
 
 pub const HAPFLOW_ABI_VERSION: u32 = 1;
 pub const HAPFLOW_MAX_SCENES: u32 = 64;
