@@ -113,6 +113,7 @@ static void nothing_is_felt_twice() {
 static void each_tool_has_a_lane() {
     auto options = jet();
     options.config.toml += "[[tool]]\n[[tool]]\nname = \"second\"\nposition = [0.06, 0.0, 0.0]\n";
+    options.config.settings = "run.coupling = direct"; // one that is fitted knows where its tool began
     clock_s = 0;
     Stage stage(options);
     chai3d::cToolCursor second(&stage.world), third(&stage.world);
