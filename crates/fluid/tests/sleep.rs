@@ -75,18 +75,22 @@ fn a_resting_ball_is_carried_by_what_sleeps_and_by_what_wakes() {
     assert!((awake / asleep - 1.0).abs() < 0.01, "asleep {asleep} N, awake {awake} N");
 }
 
+/// In the mean over starts: where its particles happen to be makes one dip differ from the next by 0.7 % of the lift, asleep
+/// or awake.
 #[test]
 fn a_ball_that_dips_in_feels_no_sleep() {
-    let dip = |sleep: bool| {
+    let dip = |sleep: bool, seed: u32| {
         let mut config = tank(Solver::Wcsph, 0.17);
         config.settings.sleep = sleep;
+        config.world.seed = seed;
         let mut run = Run::new(&config);
         run.run(3.0);
         let height = |k: i32| 0.17 - 0.005 * f64::from(k);
         let forces = (0..28).map(|k| lower(&mut run, height(k), height(k + 1)).loads[0].force().y);
         forces.sum::<f64>() / 28.0
     };
-    let (slept, never) = (dip(true), dip(false));
+    let mean = |sleep| (0..5).map(|seed| dip(sleep, seed)).sum::<f64>() / 5.0;
+    let (slept, never) = (mean(true), mean(false));
     let lift = 1000.0 * 9.81 * ball_volume(RADIUS);
     assert!((slept - never).abs() < 0.01 * lift, "{slept} N after sleep, {never} N without");
 }
