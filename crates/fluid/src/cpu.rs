@@ -21,8 +21,9 @@ use crate::solver::muller::Muller;
 use crate::solver::tension::{Pull, Tension};
 use crate::solver::viscosity::{Room, Viscosity};
 use crate::solver::wcsph::{PACKING_INTERVAL, Rates, Wcsph};
-use crate::solver::{self, Pass, Rows, Scratch};
+use crate::solver::{Pass, Rows, Scratch};
 use crate::stages::{Stage, StageTimes, Stopwatch};
+use crate::vector_unit::Arch;
 use crate::wall::WallTable;
 use crate::{BodyConfig, BodyMotion, FluidConfig, InteractionMode, Solver, World, limits, pools};
 use glam::{DVec3, Vec3};
@@ -31,12 +32,17 @@ use glam::{DVec3, Vec3};
 /// not come past its middle, one behind.
 const LONGEST_WAY: f64 = 0.7;
 
+/// How far a particle may go before its neighbours are looked for again, in spacings: the lists are 7 % longer for it.
+const LEEWAY: f32 = 0.03;
+/// Sub-steps that lists must last for that to pay.
+const WORTHWHILE: f32 = 3.0;
+
 /// A fluid on the CPU.
 pub struct CpuBackend {
     config: FluidConfig,
     /// None where there is no fluid and none comes.
     pool: Option<rayon::ThreadPool>,
-    arch: pulp::Arch,
+    arch: Arch,
     fluid: Fluid,
     output: FrameOutput,
     ready: bool,
@@ -62,7 +68,7 @@ impl CpuBackend {
         Ok(Self {
             config: config.clone(),
             pool,
-            arch: solver::arch(),
+            arch: Arch::best(),
             fluid,
             output: FrameOutput::default(),
             ready: false,
@@ -199,6 +205,8 @@ struct Fluid {
     now: Vec<BodyNow>,
     step_loads: Vec<BodyLoad>,
     degraded: bool,
+    /// The neighbours of the last sub-step are still all that there are.
+    known: bool,
 }
 
 /// One sub-step.
@@ -257,12 +265,14 @@ impl Fluid {
             now: Vec::new(),
             step_loads: vec![BodyLoad::default(); config.world.bodies.len()],
             degraded: false,
+            known: false,
         }
     }
 
     /// Takes new settings over without losing the fluid.
     fn adapt(&mut self, old: &FluidConfig, new: &FluidConfig) {
         self.sleepers.wake_all(&mut self.particles);
+        self.neighbours.forget();
         self.method = Method::new(new);
         self.tension = Tension::new(new);
         self.viscosity = Viscosity::new(new);
@@ -344,7 +354,7 @@ impl Fluid {
     fn frame(
         &mut self,
         config: &FluidConfig,
-        arch: pulp::Arch,
+        arch: Arch,
         (frame, steps): (&FrameInput<'_>, usize),
         output: &mut FrameOutput,
     ) {
@@ -422,7 +432,7 @@ impl Fluid {
     fn step(
         &mut self,
         config: &FluidConfig,
-        arch: pulp::Arch,
+        arch: Arch,
         step: &Step,
         motions: &[BodyMotion<'_>],
         share: f64,
@@ -439,7 +449,7 @@ impl Fluid {
             self.sort(config);
         }
         self.watch.lap(Stage::Sort);
-        let margin = config.settings.support_length();
+        let margin = config.settings.support_length() + f64::from(LEEWAY) * config.settings.spacing;
         self.now.clear();
         let bodies = self.bodies.iter().enumerate().filter(|_| wet);
         let bodies = bodies.map(|b| BodyNow::new(b, margin, self.periodic));
@@ -450,7 +460,7 @@ impl Fluid {
         if wet && self.interacts(config.settings.mode) {
             // In mixed mode a sub-step with forces gives the push of the next one too.
             let mixed = config.settings.mode == InteractionMode::Mixed;
-            self.look_round(config, arch);
+            self.look_round(config, arch, step.dt as f32);
             self.forces(arch, if mixed { 2.0 * step.dt } else { step.dt });
             if mixed {
                 self.rows.as_flattened_mut().iter_mut().for_each(|a| *a *= 2.0);
@@ -502,9 +512,14 @@ impl Fluid {
         }
     }
 
-    /// Drops what has left, aged or broken, and sorts the rest.
+    /// Drops what has left, aged or broken, and sorts the rest, unless all are there and near where they were.
     fn sort(&mut self, config: &FluidConfig) {
         self.mark_dead(config);
+        let complete = !self.periodic.any() && !self.dead.contains(&true);
+        self.known = complete && self.neighbours.hold(&self.particles);
+        if self.known {
+            return;
+        }
         let support = config.settings.support_length() as f32;
         let first = self.particles.len();
         if self.periodic.any() {
@@ -538,10 +553,14 @@ impl Fluid {
     }
 
     /// Finds who is near whom, and near which solids.
-    fn look_round(&mut self, config: &FluidConfig, arch: pulp::Arch) {
+    fn look_round(&mut self, config: &FluidConfig, arch: Arch, dt: f32) {
         let s = &config.settings;
         let (spacing, support) = (s.spacing as f32, s.support_length() as f32);
-        self.neighbours.find(arch, &self.grid, &self.particles, spacing, support);
+        if !self.known {
+            let slow = WORTHWHILE * self.max_speed * dt <= LEEWAY * spacing;
+            let leeway = if slow { LEEWAY * spacing } else { 0.0 };
+            self.neighbours.find(arch, &self.grid, &self.particles, spacing, [support, leeway]);
+        }
         self.watch.lap(Stage::Neighbours);
         if self.meets_walls() {
             let solids =
@@ -556,7 +575,7 @@ impl Fluid {
         !matches!(self.method, Method::Muller(_))
     }
 
-    fn forces(&mut self, arch: pulp::Arch, dt: f64) {
+    fn forces(&mut self, arch: Arch, dt: f64) {
         let dt = dt as f32;
         macro_rules! pass {
             () => {

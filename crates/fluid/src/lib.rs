@@ -42,6 +42,7 @@ mod surroundings;
 mod triangle;
 mod triangle_tree;
 pub mod twin;
+mod vector_unit;
 mod volume_map;
 mod wall;
 

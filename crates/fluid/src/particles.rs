@@ -43,6 +43,8 @@ pub(crate) struct Particles {
     /// Whether each is an image; empty in a world that is not periodic.
     is_image: Vec<bool>,
     len: usize,
+    /// Grows whenever the rows are others or stand elsewhere.
+    generation: u64,
     next_id: u32,
     spare: Vec<f32>,
     spare_id: Vec<u32>,
@@ -73,6 +75,11 @@ impl Particles {
     /// How many there are, images left out.
     pub fn count(&self) -> usize {
         self.len - self.images.len()
+    }
+
+    /// Grows whenever the rows are others or stand elsewhere than before.
+    pub fn generation(&self) -> u64 {
+        self.generation
     }
 
     /// Whether `i` is the image of another.
@@ -227,7 +234,9 @@ impl Particles {
         }
     }
 
+    /// Every change of the rows ends here.
     fn pad(&mut self) {
+        self.generation += 1;
         let wanted = self.len + PAD;
         for column in self.columns() {
             column.resize(wanted, 0.0);

@@ -38,6 +38,7 @@ use crate::meetings::Meetings;
 use crate::neighbours::Neighbours;
 use crate::particles::Particles;
 use crate::solver::wcsph::{self, Wcsph};
+use crate::vector_unit::Arch;
 use crate::{FluidConfig, Kernel, kernel};
 use descent::Descent;
 use glam::{DVec3, Vec3};
@@ -90,7 +91,7 @@ impl Solves {
 /// What stands round the particles in one sub-step, and how long that is.
 #[derive(Clone, Copy)]
 pub(crate) struct Surroundings<'a> {
-    pub arch: pulp::Arch,
+    pub arch: Arch,
     pub neighbours: &'a Neighbours,
     pub meetings: &'a Meetings,
     /// Length of the sub-step, s.

@@ -1,6 +1,6 @@
 //! The fast passes against the scalar twin, on clouds with every kind of neighbourhood.
 
-use super::{Pass, Rows, Scratch, arch};
+use super::{Pass, Rows, Scratch};
 use crate::body::BodyTables;
 use crate::grid::Grid;
 use crate::meetings::Meetings;
@@ -10,6 +10,7 @@ use crate::solids::{Solids, Walls};
 use crate::solver::viscosity::{Room, Viscosity};
 use crate::solver::{muller::Muller, tension::Tension, wcsph::Wcsph};
 use crate::twin::{MullerTwin, TensionTwin, Twin, WcsphTwin};
+use crate::vector_unit::{Arch, WIDEST};
 use crate::wall::WallTable;
 use crate::{Aabb, FluidConfig, FluidSettings, Kernel, Solver, World, kernel};
 use glam::{DVec3, Vec3};
@@ -61,13 +62,13 @@ pub(super) fn each_pass(
     check: impl Fn(&mut Particles, &dyn Fn(&Particles, &dyn Fn(Pass<'_>))),
 ) {
     let support = config.settings.support_length();
-    for arch in [pulp::Arch::Scalar, arch()] {
+    for arch in [Arch::Scalar, Arch::best()] {
         let (mut particles, mut grid) = (cloud(config.settings.spacing as f32), Grid::default());
         let n = particles.len();
         let spacing = config.settings.spacing as f32;
         grid.sort(&mut particles, spacing, support as f32, &vec![false; n]);
         let mut neighbours = Neighbours::default();
-        neighbours.find(arch, &grid, &particles, spacing, support as f32);
+        neighbours.find(arch, &grid, &particles, spacing, [support as f32, 0.0]);
         let (walls, plane) =
             (Walls::new(&config.world, &config.settings), WallTable::plane(config.settings.kernel, support));
         let tables = BodyTables::new(&[], crate::Kernel::Wendland, 0.027);
@@ -280,7 +281,7 @@ fn a_force_that_is_no_number_spoils_nobody_elses_velocity() {
     });
 }
 
-/// Whoever touches a particle is in its block's list, once, and every particle is in a block.
+/// Whoever touches a particle is in its list, once, and every particle has one, of whole vectors.
 #[test]
 fn lists_hold_every_neighbour() {
     let config = config(Solver::Wcsph);
@@ -288,21 +289,53 @@ fn lists_hold_every_neighbour() {
     each_pass(&config, |particles, with_pass| {
         with_pass(particles, &|pass| {
             let mut next = 0;
-            for block in 0..pass.neighbours.blocks() {
-                let (own, all) = (pass.neighbours.block(block), pass.neighbours.of(block));
-                assert!(own.start == next && own.len() <= 8 && !own.is_empty());
-                next = own.end;
-                for i in own {
-                    let touches =
-                        |j: &usize| particles.position(i).distance(particles.position(*j)) < support;
-                    for j in (0..particles.len()).filter(touches) {
-                        assert_eq!(all.iter().filter(|&&k| k as usize == j).count(), 1, "{i} and {j}");
-                    }
+            for chunk in 0..pass.neighbours.chunks() {
+                let own = pass.neighbours.particles(chunk);
+                assert_eq!((own.start, own.len()), (next, pass.neighbours.lists(chunk).count()));
+                for (i, list) in own.clone().zip(pass.neighbours.lists(chunk)) {
+                    let apart = |j: u32| particles.position(i).distance(particles.position(j as usize));
+                    let mut found: Vec<_> = list.to_vec();
+                    found.retain(|&j| j as usize != particles.len());
+                    assert_eq!(list.len(), found.len().next_multiple_of(WIDEST));
+                    assert!(found.iter().all(|&j| apart(j) < 1.001 * support), "{i}");
+                    found.retain(|&j| apart(j) < support);
+                    found.sort_unstable();
+                    let all = 0..particles.len() as u32;
+                    assert_eq!(found, all.filter(|&j| apart(j) < support).collect::<Vec<_>>(), "{i}");
                 }
+                next = own.end;
             }
             assert_eq!(next, particles.len());
         });
     });
+}
+
+/// Lists with leeway hold all that touch until one has gone farther.
+#[test]
+fn lists_hold_while_none_has_gone_far() {
+    let (spacing, support, leeway) = (0.01_f32, 0.027, 0.001);
+    let (mut p, mut grid, mut neighbours) = (cloud(spacing), Grid::default(), Neighbours::default());
+    let dead = vec![false; p.len()];
+    grid.sort(&mut p, spacing, support, &dead);
+    neighbours.find(Arch::best(), &grid, &p, spacing, [support, leeway]);
+    for i in 0..p.len() {
+        let way = Vec3::new(1.0, 0.0, 0.0) * if i % 2 == 0 { 0.99 * leeway } else { -0.99 * leeway };
+        p.set_position(i, p.position(i) + way);
+    }
+    assert!(neighbours.hold(&p));
+    for chunk in 0..neighbours.chunks() {
+        for (i, list) in neighbours.particles(chunk).zip(neighbours.lists(chunk)) {
+            let near = |j: &usize| p.position(i).distance(p.position(*j)) < support;
+            assert!((0..p.len()).filter(near).all(|j| list.contains(&(j as u32))));
+        }
+    }
+    p.set_position(7, p.position(7) + Vec3::splat(leeway));
+    assert!(!neighbours.hold(&p));
+    p.set_position(7, Vec3::NAN);
+    assert!(!neighbours.hold(&p));
+    neighbours.find(Arch::best(), &grid, &p, spacing, [support, leeway]);
+    p.extend(&[]);
+    assert!(!neighbours.hold(&p));
 }
 
 /// Each row within 2e-4 of the largest expected one.
