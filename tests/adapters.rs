@@ -3,7 +3,7 @@
 
 mod c_support;
 
-use c_support::{Variant, compile, library, root, scratch};
+use c_support::{Bridge, Variant, compile, library, root, scratch};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -33,6 +33,13 @@ const H3D: Adapter = Adapter {
 const CHAI3D: Adapter =
     Adapter { name: "chai3d", includes: &["cpp/adapters/chai3d", "tests/doubles/chai3d"], sources: &[] };
 
+/// Which way they go to libhapflow.
+#[derive(Clone, Copy, PartialEq)]
+enum Via {
+    C,
+    Cxx,
+}
+
 impl Adapter {
     /// Flags that a strict program compiles it with.
     fn flags(&self) -> Vec<OsString> {
@@ -46,9 +53,13 @@ impl Adapter {
     }
 
     /// Compiles a program of it, or with `-shared` a library.
-    fn link(&self, main: &[&str], name: &str, more: &[&str]) -> PathBuf {
+    fn link(&self, via: Via, main: &[&str], name: &str, more: &[&str]) -> PathBuf {
         let (made, library) = (scratch().join(name), library(Variant::Shipped));
         let mut args = self.flags();
+        if via == Via::Cxx {
+            args.push("-DHAPFLOW_VIA_CXX".into());
+            args.extend(Bridge::built().args());
+        }
         args.extend(more.iter().map(OsString::from));
         args.extend(main.iter().chain(self.sources).map(|s| root().join(s).into_os_string()));
         args.extend(["-L".into(), library.parent().unwrap().as_os_str().into(), "-lhapflow".into()]);
@@ -62,7 +73,9 @@ impl Adapter {
 /// Runs a program with the shipped library.
 fn run(program: &Path, args: &[&OsStr]) -> Output {
     let library = library(Variant::Shipped);
-    Command::new(program).args(args).env("LD_LIBRARY_PATH", library.parent().unwrap()).output().unwrap()
+    let paths = [library.parent().unwrap(), Bridge::built().folder()];
+    let paths = std::env::join_paths(paths).unwrap();
+    Command::new(program).args(args).env("LD_LIBRARY_PATH", paths).output().unwrap()
 }
 
 /// What it wrote, if it was content.
@@ -72,11 +85,15 @@ fn said(output: &Output) -> String {
     out.into_owned()
 }
 
+/// Over both roads: each compares its forces with those of the plain wrapper.
 fn passes(adapter: &Adapter) {
     let main = format!("tests/adapters/{}.cpp", adapter.name);
-    // LINUX is CHAI3D's, and nothing to the others.
-    let program = adapter.link(&[&main], &format!("adapter-{}", adapter.name), &["-DLINUX"]);
-    assert_eq!(said(&run(&program, &[])), "all passed\n");
+    for (via, road) in [(Via::C, "c"), (Via::Cxx, "cxx")] {
+        // LINUX is CHAI3D's, and nothing to the others.
+        let name = format!("adapter-{}-{road}", adapter.name);
+        let program = adapter.link(via, &[&main], &name, &["-DLINUX"]);
+        assert_eq!(said(&run(&program, &[])), "all passed\n", "over {road}");
+    }
 }
 
 #[test]
@@ -96,22 +113,22 @@ fn the_node_of_h3d_does_what_it_says() {
 
 #[test]
 fn a_hapi_program_loads_the_adapter_by_its_file() {
-    let plugin = HAPI.link(&[], "libhapflow_hapi.so", &["-shared"]);
+    let plugin = HAPI.link(Via::Cxx, &[], "libhapflow_hapi.so", &["-shared"]);
     // HAPI's list is one in the process, as where it is a shared library.
     let host = Adapter { sources: &[], ..HAPI };
-    let host = host.link(&["tests/adapters/hapi_host.cpp"], "hapi-host", &["-rdynamic"]);
+    let host = host.link(Via::C, &["tests/adapters/hapi_host.cpp"], "hapi-host", &["-rdynamic"]);
     assert_eq!(said(&run(&host, &[plugin.as_os_str()])), "HapflowFluid\nstepped\n");
 }
 
 #[test]
 fn the_examples_run_and_few_of_their_lines_are_the_fluids() {
-    for (adapter, example) in [(&HAPI, "hapi_tap"), (&CHAI3D, "chai3d_tank")] {
+    for (adapter, via, example) in [(&HAPI, Via::Cxx, "hapi_tap"), (&CHAI3D, Via::C, "chai3d_tank")] {
         let source = format!("examples/{example}.cpp");
         let text = std::fs::read_to_string(root().join(&source)).unwrap();
         let lines = text.lines().filter(|l| !l.trim_start().starts_with("//"));
         let ours = lines.filter(|l| l.contains("hapflow") || l.contains("Hapflow") || l.contains("fluid"));
         assert!(ours.count() <= 10, "{example}");
-        let program = adapter.link(&[&source], example, &["-DLINUX"]);
+        let program = adapter.link(via, &[&source], example, &["-DLINUX"]);
         let out = said(&run(&program, &[OsStr::new("0.3")]));
         assert!(out.starts_with("force ") && !out.contains("nan"), "{out}");
     }

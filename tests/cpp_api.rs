@@ -4,7 +4,7 @@
 
 mod c_support;
 
-use c_support::{Variant, compile, header, library, root, scratch};
+use c_support::{Bridge, Variant, compile, header, library, root, scratch};
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -179,7 +179,11 @@ fn installed(name: &str) -> PathBuf {
     }
     let mut dist = Command::new("bash");
     dist.arg(root().join("tools/dist.sh")).arg("--prefix").arg(&first);
-    said(&dist.arg("--library").arg(library(Variant::Shipped)).output().unwrap());
+    let both = scratch().join(format!("{name} libraries"));
+    fs::create_dir_all(&both).unwrap();
+    fs::copy(library(Variant::Shipped), both.join("libhapflow.so")).unwrap();
+    fs::copy(Bridge::built().folder().join("libhapflow_cxx.so"), both.join("libhapflow_cxx.so")).unwrap();
+    said(&dist.arg("--library").arg(both.join("libhapflow.so")).output().unwrap());
     fs::rename(&first, &moved).unwrap();
     moved
 }
@@ -192,7 +196,13 @@ fn what_is_installed_is_complete_and_knows_no_place() {
         "lib/cmake/hapflow/hapflowConfig.cmake",
         "lib/cmake/hapflow/hapflowConfigVersion.cmake",
         "lib/pkgconfig/hapflow.pc",
+        "lib/libhapflow_cxx.so",
         "include/hapflow/hapflow.hpp",
+        "include/hapflow/cxx.hpp",
+        "include/hapflow/cxx/bridge.h",
+        "include/rust/cxx.h",
+        "share/hapflow/cxx/bridge.cc",
+        "share/hapflow/cxx/cxx.cc",
         "share/doc/hapflow/README.md",
         "share/doc/hapflow/LICENSE-APACHE",
         "share/doc/hapflow/LICENSE-MIT",
@@ -256,6 +266,11 @@ fn a_program_builds_with_the_flags_of_pkg_config() {
     assert!(out.contains("force"), "{out}");
 }
 
+/// The consumer's project over the bridge.
+const BRIDGED: &str = "cmake_minimum_required(VERSION 3.16)\nproject(consumer LANGUAGES CXX)\n\
+    find_package(hapflow 0.1 CONFIG REQUIRED COMPONENTS cxx)\nadd_executable(consumer main.cpp)\n\
+    target_link_libraries(consumer PRIVATE hapflow::cxx)\n";
+
 #[test]
 fn a_project_builds_with_find_package() {
     if !there("cmake") {
@@ -286,6 +301,37 @@ fn a_project_builds_with_find_package() {
 }
 
 #[test]
+fn a_project_over_the_bridge_builds_with_find_package() {
+    if !there("cmake") {
+        return;
+    }
+    let (tree, source) = (installed("cpp-bridged"), scratch().join("cpp-bridged"));
+    drop(fs::remove_dir_all(&source));
+    fs::create_dir_all(&source).unwrap();
+    fs::write(source.join("CMakeLists.txt"), BRIDGED).unwrap();
+    let consumer = fs::read_to_string(root().join("examples/cmake-consumer/main.cpp")).unwrap();
+    let consumer =
+        consumer.replace("hapflow.hpp", "cxx.hpp").replace("hapflow::Session", "hapflow::cxx::Session");
+    fs::write(source.join("main.cpp"), consumer).unwrap();
+    let mut option = OsString::from("-DCMAKE_PREFIX_PATH=");
+    option.push(&tree);
+    let (build, mut cmake) = (source.join("build"), Command::new("cmake"));
+    said(&cmake.arg("-S").arg(&source).arg("-B").arg(&build).arg(&option).output().unwrap());
+    said(&Command::new("cmake").arg("--build").arg(&build).output().unwrap());
+    let mut consumer = Command::new(build.join("consumer"));
+    let out = said(&consumer.arg(COARSE).env_remove("LD_LIBRARY_PATH").output().unwrap());
+    assert!(out.contains("done; force"), "{out}");
+
+    // Without it, it is not found.
+    fs::remove_file(tree.join("lib/libhapflow_cxx.so")).unwrap();
+    fs::remove_dir_all(&build).unwrap();
+    let mut cmake = Command::new("cmake");
+    let broken = cmake.arg("-S").arg(&source).arg("-B").arg(&build).arg(&option).output().unwrap();
+    let err = String::from_utf8_lossy(&broken.stderr);
+    assert!(!broken.status.success() && err.contains("there is no component cxx"), "{err}");
+}
+
+#[test]
 fn the_adapters_that_have_no_stack_are_left_out_in_a_line_each() {
     if !there("cmake") {
         return;
@@ -296,8 +342,9 @@ fn the_adapters_that_have_no_stack_are_left_out_in_a_line_each() {
     option.push(&tree);
     let mut cmake = Command::new("cmake");
     cmake.arg("-S").arg(tree.join("share/hapflow/adapters")).arg("-B").arg(&build).arg(option);
+    // What was built somewhere on this machine is not to be found by itself.
+    cmake.arg("-DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF");
     let out = said(&cmake.output().unwrap());
-    // No machine of ours has one of the stacks.
     for (stack, target) in [("CHAI3D", "adapter"), ("HAPI", "adapter"), ("H3D", "node")] {
         let lines = out.lines().filter(|l| l.contains(&format!("the {stack} {target} is left out")));
         assert_eq!(lines.count(), 1, "{out}");

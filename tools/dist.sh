@@ -4,7 +4,7 @@
 #     tools/dist.sh                     into dist/hapflow-VERSION-TARGET
 #     tools/dist.sh --prefix DIR        into DIR, as /usr/local
 #     tools/dist.sh --tarball           also dist/hapflow-VERSION-TARGET.tar.gz: the same bytes from the same library
-#     tools/dist.sh --library FILE      takes this libhapflow.so, and builds none
+#     tools/dist.sh --library FILE      takes this libhapflow.so and the libhapflow_cxx.so beside it, and builds none
 #
 # What comes out finds itself wherever it is moved to, by CMake and pkg-config. For Linux; needs Rust and binutils.
 set -euo pipefail
@@ -49,10 +49,13 @@ if [[ -z $library ]]; then
     # folder of its own it leaves the other builds alone.
     export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-target}/dist
     RUSTFLAGS="${RUSTFLAGS:-} --remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=/cargo --remap-path-prefix=$PWD=/hapflow" \
-        cargo build --locked --release -p hapflow-capi
+        cargo build --locked --release -p hapflow-capi -p hapflow-cxx-bridge
     library=$CARGO_TARGET_DIR/release/libhapflow.so
 fi
-[[ -f $library ]] || fail "$library: no such file"
+bridge=$(dirname "$library")/libhapflow_cxx.so
+for file in "$library" "$bridge"; do
+    [[ -f $file ]] || fail "$file: no such file"
+done
 
 # --- The tree -------------------------------------------------------------------------------------
 
@@ -74,11 +77,14 @@ fill_in() { # fill_in TEMPLATE FILE
 [[ $(od -An -tu1 -j4 -N1 "$library") -eq 2 ]] && pointer_bytes=8 || pointer_bytes=4
 
 umask 022
-put lib "$library"
-mv -f "$tree/lib/$(basename "$library")" "$stage/whole.so"
-strip --strip-unneeded -o "$tree/lib/libhapflow.so" "$stage/whole.so"
-chmod 755 "$tree/lib/libhapflow.so"
-put include/hapflow include/hapflow/*.h cpp/include/hapflow/hapflow.hpp
+install -d -m 755 "$tree/lib"
+strip --strip-unneeded -o "$tree/lib/libhapflow.so" "$library"
+strip --strip-unneeded -o "$tree/lib/libhapflow_cxx.so" "$bridge"
+chmod 755 "$tree"/lib/*.so
+put include/hapflow include/hapflow/*.h cpp/include/hapflow/*.hpp
+put include/hapflow/cxx cpp/cxx/include/hapflow/cxx/bridge.h
+put include/rust cpp/cxx/include/rust/cxx.h
+put share/hapflow/cxx cpp/cxx/*.cc
 put lib/cmake/hapflow cpp/cmake/hapflowConfig.cmake
 fill_in cpp/cmake/hapflowConfigVersion.cmake.in lib/cmake/hapflow/hapflowConfigVersion.cmake
 fill_in cpp/pkgconfig/hapflow.pc.in lib/pkgconfig/hapflow.pc

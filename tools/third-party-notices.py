@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-BINARIES = ("hapflow-app", "hapflow-capi")
+BINARIES = ("hapflow-app", "hapflow-capi", "hapflow-cxx-bridge")
 PLATFORMS = (
     "x86_64-unknown-linux-gnu",
     "aarch64-unknown-linux-gnu",
@@ -29,6 +29,7 @@ TAKEN = {
     "Apache-2.0": "Apache License",
     "ISC": "Permission to use, copy, modify, and/or distribute this software",
     "Unicode-3.0": "UNICODE LICENSE V3",
+    "Zlib": "This software is provided 'as-is'",
 }
 LICENCE_FILE = re.compile(r"(?i)^(un)?(licen[cs]e|copying|copyright|notice)")
 # Not the "Copyright [yyyy] [name of copyright owner]" that the Apache licence prints as a pattern.
@@ -178,7 +179,7 @@ INTRODUCTION = """# Third-party notices
 
 hapflow itself is under MIT or Apache-2.0, at your choice: see LICENSE-MIT and LICENSE-APACHE.
 
-This file lists the work of others that ends up in the program `hapflow` and in `libhapflow`: {} crates, the Rust
+This file lists the work of others that ends up in `hapflow`, `libhapflow` and `libhapflow_cxx`: {} crates, the Rust
 standard library and one font. Ship it with every binary. It covers the builds for Linux, Windows and macOS; one for a
 single system holds a few crates less. Where a crate offers several licences, the heading says which is taken.
 

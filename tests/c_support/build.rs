@@ -47,31 +47,30 @@ pub fn library(variant: Variant) -> PathBuf {
 }
 
 fn build(variant: Variant) -> PathBuf {
+    let (folder, options): (_, &[_]) = match variant {
+        Variant::Shipped => ("shipped", &[]),
+        Variant::Hooks => ("hooks", &["--features", "test-hooks"]),
+        Variant::Bare => ("bare", &["--no-default-features"]),
+    };
+    cargo_build("hapflow-capi", options, "libhapflow.so", folder)
+}
+
+/// Builds a package with this test's profile, and keeps its library in a folder of its own.
+pub(super) fn cargo_build(package: &str, options: &[&str], library: &str, folder: &str) -> PathBuf {
     // All variants come out under one name: nobody else may build between cargo and the copy.
     let lock = File::create(scratch().join("lock")).unwrap();
     lock.lock().unwrap();
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.current_dir(root()).args(["build", "--quiet", "-p", "hapflow-capi"]);
+    cargo.current_dir(root()).args(["build", "--quiet", "-p", package]).args(options);
     let (profile, target) = (profile_dir(), profile_dir().parent().unwrap().to_path_buf());
     match profile.file_name().and_then(OsStr::to_str).unwrap() {
         "debug" => {}
         name => drop(cargo.args(["--profile", name])),
     }
-    let folder = match variant {
-        Variant::Shipped => "shipped",
-        Variant::Hooks => {
-            cargo.args(["--features", "test-hooks"]);
-            "hooks"
-        }
-        Variant::Bare => {
-            cargo.arg("--no-default-features");
-            "bare"
-        }
-    };
     assert!(cargo.arg("--target-dir").arg(target).status().unwrap().success(), "{cargo:?}");
-    let made = scratch().join(folder).join("libhapflow.so");
+    let made = scratch().join(folder).join(library);
     fs::create_dir_all(made.parent().unwrap()).unwrap();
-    copy_whole(&profile.join("libhapflow.so"), &made);
+    copy_whole(&profile.join(library), &made);
     made
 }
 

@@ -2,6 +2,7 @@
 #![allow(dead_code, unused_imports)]
 
 mod api;
+mod bridge;
 mod build;
 pub mod header;
 mod random;
@@ -11,6 +12,7 @@ pub use api::{
     SceneInfo, ServoPace, Session, SessionConfig, SettingInfo, SourceConfig, ToolConfig, ToolState, Wrench,
     made, shown,
 };
+pub use bridge::Bridge;
 pub use build::{Variant, compile, library, root, scratch};
 pub use random::Random;
 

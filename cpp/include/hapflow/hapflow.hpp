@@ -676,6 +676,29 @@ struct [[nodiscard]] Tick {
     [[nodiscard]] const char* text() const noexcept { return hapflow_result_text(result); }
 };
 
+namespace detail {
+
+/// A tick by `call(state, wrench)`, which gives the result. `blank` is a state as the init function makes it.
+template <class Call>
+Tick ticked(const ToolState& state, hapflow_tool_state blank, Call call) noexcept {
+    blank.tool = state.tool;
+    blank.buttons = state.buttons;
+    blank.time_s = state.time_s;
+    blank.dt_s = state.dt_s;
+    copy(state.position, blank.position);
+    copy(state.orientation, blank.orientation);
+    copy(state.velocity, blank.velocity);
+    copy(state.angular_velocity, blank.angular_velocity);
+    hapflow_wrench wrench{};
+    Tick tick;
+    tick.result = call(blank, wrench);
+    copy(wrench.force, tick.wrench.force);
+    copy(wrench.torque, tick.wrench.torque);
+    return tick;
+}
+
+} // namespace detail
+
 /// Where something is, in the scene's frame.
 struct Pose {
     Vec3 position{};                                 ///< m.
@@ -776,21 +799,9 @@ public:
 
     /// One servo tick: the hand is at `state`, and feels the wrench. [servo] On failure the wrench is zero.
     Tick tick(const ToolState& state) noexcept {
-        hapflow_tool_state c = blank_;
-        c.tool = state.tool;
-        c.buttons = state.buttons;
-        c.time_s = state.time_s;
-        c.dt_s = state.dt_s;
-        detail::copy(state.position, c.position);
-        detail::copy(state.orientation, c.orientation);
-        detail::copy(state.velocity, c.velocity);
-        detail::copy(state.angular_velocity, c.angular_velocity);
-        hapflow_wrench wrench{};
-        Tick tick;
-        tick.result = hapflow_servo_tick(session_, &c, &wrench);
-        detail::copy(wrench.force, tick.wrench.force);
-        detail::copy(wrench.torque, tick.wrench.torque);
-        return tick;
+        return detail::ticked(state, blank_, [&](const hapflow_tool_state& c, hapflow_wrench& wrench) noexcept {
+            return hapflow_servo_tick(session_, &c, &wrench);
+        });
     }
 
     /// How many tools the scene has; each is ticked by itself. [any]

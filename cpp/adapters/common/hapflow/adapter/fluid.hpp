@@ -166,8 +166,7 @@ private:
             if (parts.empty()) {
                 return Road::Session(config);
             }
-            Road::Scene scene =
-                config.toml.empty() ? Road::Scene::load(config.scene) : Road::Scene::parse(config.toml);
+            Scene scene = config.toml.empty() ? Scene::load(config.scene) : Scene::parse(config.toml);
             for (const Obstacle& part : parts) {
                 scene.add(part);
             }
