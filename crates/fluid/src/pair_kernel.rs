@@ -129,12 +129,13 @@ impl PairKernel for LowPass {
     }
 }
 
-/// Σ factors[k] s^k (Horner).
+/// Σ factors[k] s^k, in pairs (Estrin): a chain of four multiplications and not of seven, for which the pair loops would wait.
 #[inline(always)]
 fn polynomial<S: Simd>(simd: S, factors: &[f32; 7], s: S::f32s) -> S::f32s {
-    let mut sum = simd.splat_f32s(0.0);
-    for &factor in factors.iter().rev() {
-        sum = fma(simd, sum, s, simd.splat_f32s(factor));
-    }
-    sum
+    let s2 = simd.mul_f32s(s, s);
+    let s4 = simd.mul_f32s(s2, s2);
+    let factor = |k: usize| simd.splat_f32s(factors[k]);
+    let pair = |k: usize| fma(simd, factor(k + 1), s, factor(k));
+    let (low, high) = (fma(simd, pair(2), s2, pair(0)), fma(simd, factor(6), s2, pair(4)));
+    fma(simd, high, s4, low)
 }
