@@ -21,15 +21,17 @@ pub fn validate(args: &ValidateArgs) -> Result<bool, Failure> {
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let plan = Plan::new(&cases, &settings(args), args.dx.clone(), args.quick, threads)?;
     let known = shortfalls();
-    let mut good = true;
+    let (mut good, mut refused) = (true, None);
     if !args.json {
         say(&table::head());
     }
     for case in cases {
         let rows = match plan.run_case(case, progress) {
-            // Of all cases, those that the solver is not made for are left out, and said to be.
-            Err(error) if args.cases.is_empty() && error.is_unsupported() => {
+            // One case that cannot be run must not cost the others.
+            Err(error) if args.cases.len() != 1 => {
                 eprintln!("{} is left out: {error}", case.name);
+                let expected = args.cases.is_empty() && error.is_unsupported();
+                refused = refused.or((!expected).then_some(error));
                 continue;
             }
             rows => rows?,
@@ -42,7 +44,7 @@ pub fn validate(args: &ValidateArgs) -> Result<bool, Failure> {
             plot::save(&rows, &folder.join(format!("{}.png", case.name)))?;
         }
     }
-    Ok(good)
+    refused.map_or(Ok(good), |error| Err(error.into()))
 }
 
 /// The cases that were named, in the order of the table; all if none was.

@@ -29,7 +29,7 @@ pub(super) const CASE: Case = Case {
         Parameter::DENSITY,
     ],
     length: "radius",
-    cells: [4.0, 4.6, 5.2],
+    cells: [4.0, 4.4, 4.8],
     variants: &[&[("re", "10")], &[("re", "1")], &[("re", "100")]],
     run,
 };
