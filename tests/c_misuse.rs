@@ -172,6 +172,24 @@ fn a_bad_state_gives_no_force_until_it_is_cleared_and_then_no_jump() {
     assert!(felt(api.run(session, 150, 200).last().unwrap()) > 0.9 * full);
 }
 
+#[test]
+fn a_fault_that_is_cleared_before_the_next_tick_leaves_no_jump_either() {
+    let api = ready();
+    let session = api.jet();
+    let mut full = 0.0;
+    for k in 0..bad_states(api.state(0)).len() {
+        let next = 101 * k as u64 + 100;
+        let felt_now = felt(api.run(session, next - 100, next).last().unwrap());
+        assert!(felt_now > 0.9 * full && felt_now > 0.1, "{felt_now} N, and not {full}");
+        full = felt_now;
+        let (expected, bad) = bad_states(api.state(next - 1))[k];
+        assert_eq!(api.tick(session, &bad), (expected, Wrench::ZERO));
+        assert_eq!((api.session_clear_faults)(session), code::OK);
+        let first = felt(&api.run(session, next, next + 1)[0]);
+        assert!(first < 0.1 * full, "{first} N at once after {bad:?}");
+    }
+}
+
 /// Both tools of a session, at rest in their jets, over the ticks `from..to`; the last results and wrenches.
 fn run_two(api: &Api, session: Session, from: u64, to: u64) -> [(i32, Wrench); 2] {
     let mut last = [(code::OK, Wrench::ZERO); 2];

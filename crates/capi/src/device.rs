@@ -98,8 +98,7 @@ impl DeviceSide {
 
     fn take_clear(&mut self) {
         if self.clear.clear(u32::MAX) != 0 {
-            self.gate.clear_faults();
-            self.found = FaultSet::NONE;
+            self.gate.clear_faults(std::mem::take(&mut self.found));
         }
     }
 }

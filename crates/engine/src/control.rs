@@ -5,12 +5,15 @@ use crate::force_limit::ForceLimit;
 use hapflow_haptics::{FaultSet, RangeError};
 use hapflow_realtime::SharedFlags;
 
+/// Asks a tool to forget its faults. No fault has this bit.
+pub(crate) const CLEAR: u32 = 1 << 31;
+
 /// What any thread may do with a session: raise and clear faults, and limit its forces.
 #[derive(Clone, Debug)]
 pub struct Control {
     pub(crate) flags: SharedFlags,
     pub(crate) limit: ForceLimit,
-    /// One for each tool, whose gate answers it by itself.
+    /// One for each tool, whose gate answers it by itself: [`CLEAR`], and which faults were taken back.
     pub(crate) clear: Vec<SharedFlags>,
 }
 
@@ -33,9 +36,9 @@ impl Control {
 
     /// Takes back every fault; the force ramps in. Thread: any.
     pub fn clear_faults(&self) {
-        self.flags.clear(u32::MAX);
+        let raised = self.flags.clear(u32::MAX);
         for tool in &self.clear {
-            tool.raise(1);
+            tool.raise(raised | CLEAR);
         }
     }
 

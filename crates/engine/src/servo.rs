@@ -1,5 +1,6 @@
 //! One servo tick. Thread: servo, one at a time; no lock, no allocation, no log, no system call.
 
+use crate::control::CLEAR;
 use crate::force_limit::ForceLimit;
 use crate::touch::Touch;
 use glam::DVec3;
@@ -163,8 +164,8 @@ impl ServoUnit {
         }
         self.limit.hold(&mut self.gate);
         if self.clear.load() != 0 {
-            self.clear.clear(u32::MAX);
-            self.gate.clear_faults();
+            let raised = self.clear.clear(u32::MAX) & !CLEAR;
+            self.gate.clear_faults(FaultSet::from_bits(raised));
             if let Some(touch) = &mut self.touch {
                 touch.reset();
             }

@@ -128,9 +128,13 @@ impl SafetyGate {
         self.gain
     }
 
-    /// Forgets the latched faults; the force then ramps in as after a start. A cause that is still there
-    /// latches again at the next tick.
-    pub fn clear_faults(&mut self) {
+    /// Forgets the latched faults, and `raised`, which may have come and gone since the newest tick; the force then
+    /// ramps in as after a start. A cause that is still there latches again at the next tick.
+    pub fn clear_faults(&mut self, raised: FaultSet) {
+        if !raised.latching().is_empty() {
+            self.sent = Wrench::ZERO;
+            self.gain = 0.0;
+        }
         self.latched = FaultSet::NONE;
         self.newest = FaultSet::NONE;
     }

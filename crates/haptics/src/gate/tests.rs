@@ -136,7 +136,7 @@ fn a_fault_means_zero_at_once_until_it_is_cleared() {
         }
         assert_eq!(gate.latched(), fault);
         assert_eq!(gate.gain(), 0.0);
-        gate.clear_faults();
+        gate.clear_faults(FaultSet::NONE);
         assert!(gate.pass(along_x(4.0), &FRESH, FaultSet::NONE, DT).force().x > 0.5);
     }
 }
@@ -147,7 +147,7 @@ fn after_clearing_the_force_ramps_in_again() {
     run(&mut gate, 600, 4.0, &FRESH);
     gate.pass(along_x(f64::NAN), &FRESH, FaultSet::NONE, DT);
     assert_eq!(gate.latched(), FaultSet::NON_FINITE_FORCE);
-    gate.clear_faults();
+    gate.clear_faults(FaultSet::NONE);
     let sent = gate.pass(along_x(4.0), &FRESH, FaultSet::NONE, DT).force().x;
     assert!((sent - 0.008).abs() < 1e-9, "{sent}");
 }
@@ -156,7 +156,7 @@ fn after_clearing_the_force_ramps_in_again() {
 fn a_cause_that_stays_latches_again() {
     let mut gate = open();
     gate.pass(along_x(1.0), &FRESH, FaultSet::FLUID_FAULT, DT);
-    gate.clear_faults();
+    gate.clear_faults(FaultSet::NONE);
     assert_eq!(gate.pass(along_x(1.0), &FRESH, FaultSet::FLUID_FAULT, DT), GatedWrench::ZERO);
     assert_eq!(gate.latched(), FaultSet::FLUID_FAULT);
 }
@@ -280,7 +280,7 @@ fn check_run(seed: u64, nasty: &[f64]) -> usize {
         } else {
             assert_eq!(sent, GatedWrench::ZERO);
             if random.next().is_multiple_of(20) {
-                gate.clear_faults();
+                gate.clear_faults(FaultSet::NONE);
             }
         }
         felt += usize::from(sent != GatedWrench::ZERO);
