@@ -32,6 +32,12 @@ const H3D: Adapter = Adapter {
 };
 const CHAI3D: Adapter =
     Adapter { name: "chai3d", includes: &["cpp/adapters/chai3d", "tests/doubles/chai3d"], sources: &[] };
+/// Both in one program, whose memory is watched.
+const WATCHED: Adapter = Adapter {
+    name: "no_alloc",
+    includes: &["cpp/adapters/hapi", "tests/doubles/hapi", "cpp/adapters/chai3d", "tests/doubles/chai3d"],
+    ..HAPI
+};
 
 /// Which way they go to libhapflow.
 #[derive(Clone, Copy, PartialEq)]
@@ -137,6 +143,12 @@ fn the_examples_run_and_few_of_their_lines_are_the_fluids() {
 #[test]
 fn the_chai3d_adapter_does_what_it_says() {
     passes(&CHAI3D);
+}
+
+#[test]
+#[cfg(target_env = "gnu")]
+fn no_servo_call_of_theirs_allocates() {
+    passes(&WATCHED);
 }
 
 #[test]

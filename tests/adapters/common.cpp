@@ -39,6 +39,8 @@ static void velocity() {
     CHECK(std::fabs(v[0] - (1 - std::exp(-6.283185307179586 * 70 * 0.1))) < 1e-12);
     CHECK(length(estimator.update({{9, 0, 0}}, 0.2)) == 0); // after a gap at rest
     CHECK(length(estimator.update({{9, 0, 0}}, nan_value)) == 0);
+    estimator.update({{9, nan_value, 0}}, 1e-3); // is refused with its place, and forgotten
+    CHECK(length(estimator.update({{9, 0, 0}}, 1e-3)) == 0 && estimator.update({{9.001, 0, 0}}, 1e-3)[0] > 0.3);
 }
 
 static void a_fluid_feels_as_the_wrapper_does() {

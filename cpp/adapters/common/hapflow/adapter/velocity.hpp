@@ -11,7 +11,7 @@ namespace hapflow::adapter {
 
 /// Differences of positions through a first-order low pass that is exact for uneven ticks, as the library's own devices
 /// have it. A repeated sample, which some drivers give, makes no peak of twice the velocity. It starts at rest, and anew
-/// after a gap.
+/// after a gap, and after a sample that is no number.
 class VelocityEstimator {
 public:
     /// `cutoff_hz`: of the low pass, Hz. 70 lets a hand's fastest motion through with 2.3 ms of delay.
@@ -28,7 +28,7 @@ public:
             }
         }
         last_ = position;
-        known_ = true;
+        known_ = std::isfinite(position[0] + position[1] + position[2]);
         return velocity_;
     }
 
