@@ -4,6 +4,7 @@ use glam::DVec3;
 use hapflow::devices::falcon::{
     EmulatedFalcon, EmulatedHand, EmulatedTransport, Falcon, FalconOptions, Geometry, Kinematics, Trouble,
 };
+use hapflow::devices::hid::{Gone, Reports, SpaceMouse};
 use hapflow::devices::sdk::{ForceDimension, OpenHaptics};
 use hapflow::devices::{
     AtEnd, HandSettings, HapticDevice, Motion, NullDevice, Replay, SimulatedHand, TargetScript,
@@ -16,15 +17,18 @@ use std::process::Command;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex};
 
+/// Something that fails: its name, and what lets it fail or takes that back.
+pub type Failure = (&'static str, Box<dyn Fn(bool)>);
+
 /// A device, and what a test sees and does behind it.
 pub struct Subject {
     pub name: &'static str,
     /// Where its grip rests, m.
     pub place: DVec3,
-    /// The force at its motors, N.
+    /// The force at its motors, N. Nothing to be seen of a simulated hand, whose motors are itself, nor where there are none.
     pub felt: Option<Box<dyn Fn() -> DVec3>>,
-    /// Pulls its cable, or plugs it in again.
-    pub unplug: Option<Box<dyn Fn(bool)>>,
+    /// What takes it away while it is used. Nothing, where there is no cable and nobody who could fall silent.
+    pub failures: Vec<Failure>,
     device: Option<Box<dyn HapticDevice>>,
     /// Lets a millisecond pass behind it.
     pass: Box<dyn FnMut()>,
@@ -33,7 +37,7 @@ pub struct Subject {
 impl Subject {
     fn simulated(name: &'static str, place: DVec3, device: impl HapticDevice + 'static) -> Self {
         let device: Option<Box<dyn HapticDevice>> = Some(Box::new(device));
-        Self { name, place, felt: None, unplug: None, device, pass: Box::new(|| {}) }
+        Self { name, place, felt: None, failures: Vec::new(), device, pass: Box::new(|| {}) }
     }
 
     /// The device, once.
@@ -54,6 +58,7 @@ pub fn all() -> Vec<Subject> {
         Subject::simulated("replay", DVec3::new(0.02, 1.0, 0.0), replay()),
         Subject::simulated("hand", DVec3::new(0.01, 0.02, 0.03), hand()),
         emulated_falcon(),
+        space_mouse(),
     ];
     match (force_dimension(), touch()) {
         (Some(force_dimension), Some(touch)) => all.extend([force_dimension, touch]),
@@ -81,8 +86,28 @@ fn emulated_falcon() -> Subject {
     let transport = EmulatedTransport::new(Arc::clone(&device), Arc::clone(&clock) as _);
     let mut falcon = Falcon::new(Box::new(transport), options).unwrap();
     falcon.prepare(&mut |_| ControlFlow::Continue(())).unwrap();
-    let (felt, cable, board) = (Arc::clone(&device), Arc::clone(&device), device);
-    let (now, quiet) = (Arc::clone(&clock), Arc::clone(&clock));
+    let (felt, board) = (Arc::clone(&device), Arc::clone(&device));
+    let quiet = Arc::clone(&clock);
+    let failure = |name, fail: fn(&mut EmulatedFalcon, u64)| -> Failure {
+        let (device, clock) = (Arc::clone(&device), Arc::clone(&clock));
+        let now = move || clock.now_ns();
+        (
+            name,
+            Box::new(move |on| {
+                let device = &mut *device.lock().unwrap();
+                *device.trouble() = Trouble::default();
+                if on {
+                    fail(device, now());
+                }
+            }),
+        )
+    };
+    let failures = vec![
+        failure("its cable is out", |device, now| device.trouble().unplugged_ns = Some(now)),
+        failure("it is silent", |device, _| device.trouble().silent_after = Some(device.commanded().1)),
+        failure("it says nonsense", |device, _| device.trouble().garbles_every = 1),
+        failure("it has lost its marks", |device, _| device.hand().unhome()),
+    ];
     let mut last_commands = 0;
     Subject {
         name: "falcon",
@@ -91,9 +116,7 @@ fn emulated_falcon() -> Subject {
             let device = &mut *felt.lock().unwrap();
             device.hand().felt()
         })),
-        unplug: Some(Box::new(move |out| {
-            cable.lock().unwrap().trouble().unplugged_ns = out.then(|| now.now_ns());
-        })),
+        failures,
         device: Some(Box::new(falcon)),
         // The driver moves the clock, but where it is silent.
         pass: Box::new(move || {
@@ -105,6 +128,52 @@ fn emulated_falcon() -> Subject {
             last_commands = commands;
             device.hand().live(quiet.now_ns());
         }),
+    }
+}
+
+/// A cap that is pushed to the right, and turned, as far as it goes, and after a tenth of a second let go.
+#[derive(Clone, Default)]
+struct Cap(Arc<Mutex<CapState>>);
+
+#[derive(Default)]
+struct CapState {
+    gone: bool,
+    pushed_ms: u32,
+    waiting: bool,
+}
+
+impl Reports for Cap {
+    fn next(&mut self, report: &mut [u8]) -> Result<usize, Gone> {
+        let mut cap = self.0.lock().unwrap();
+        if cap.gone {
+            return Err(Gone);
+        }
+        if !std::mem::take(&mut cap.waiting) {
+            return Ok(0);
+        }
+        let right = if cap.pushed_ms <= 100 { 350_i16 } else { 0 }.to_le_bytes();
+        report[..13].copy_from_slice(&[1, right[0], right[1], 0, 0, 0, 0, 0, 0, 0, 0, right[0], right[1]]);
+        Ok(13)
+    }
+}
+
+fn space_mouse() -> Subject {
+    let cap = Cap::default();
+    cap.0.lock().unwrap().waiting = true;
+    let (cable, hand) = (cap.clone(), cap.clone());
+    Subject {
+        failures: vec![("its cable is out", Box::new(move |out| cable.0.lock().unwrap().gone = out))],
+        pass: Box::new(move || {
+            let mut cap = hand.0.lock().unwrap();
+            cap.pushed_ms += 1;
+            cap.waiting = true;
+        }),
+        // A tenth of a second at full speed.
+        ..Subject::simulated(
+            "spacemouse",
+            DVec3::new(0.1 * SpaceMouse::SPEED_M_PER_S, 1.0, 0.0),
+            SpaceMouse::over(Box::new(cap), DVec3::Y),
+        )
     }
 }
 
@@ -148,7 +217,7 @@ fn force_dimension() -> Option<Subject> {
             let own = force(&felt);
             DVec3::new(own.y, own.z, own.x)
         })),
-        unplug: Some(Box::new(move |out| set(&cable, u32::from(!out), DVec3::ZERO))),
+        failures: vec![("its cable is out", Box::new(move |out| set(&cable, u32::from(!out), DVec3::ZERO)))],
         device: Some(Box::new(device)),
         pass: Box::new(move || {
             // SAFETY: the type is that of the function.
@@ -166,7 +235,10 @@ fn touch() -> Option<Subject> {
         name: "touch",
         place: DVec3::new(0.01, 0.02, 0.03),
         felt: Some(Box::new(move || force(&felt))),
-        unplug: Some(Box::new(move |out| set(&cable, if out { 0x0300 } else { 0 }, DVec3::ZERO))),
+        failures: vec![(
+            "its library tells of an error",
+            Box::new(move |out| set(&cable, if out { 0x0300 } else { 0 }, DVec3::ZERO)),
+        )],
         device: Some(Box::new(device)),
         pass: Box::new(move || {
             // SAFETY: the type is that of the function.

@@ -135,12 +135,13 @@ pub const TOUCH: DeviceInfo = DeviceInfo {
     ..NULL
 };
 
-/// A SpaceMouse.
+/// A SpaceMouse. Rate: a report every 8 ms, as a SpaceNavigator was seen to send them.
 pub const SPACE_MOUSE: DeviceInfo = DeviceInfo {
     name: "spacemouse",
     about: "a SpaceMouse of 3Dconnexion, whose cap moves the tool; no force",
     sensed_dof: 6,
     workspace_m: [2.0 * SpaceMouse::REACH_M; 3],
+    rate_hz: 125.0,
     hardware: true,
     ..NULL
 };

@@ -13,31 +13,57 @@ use std::process::Command;
 
 /// Set for the inner run.
 const INNER: &str = "HAPFLOW_INNER_TEST";
-const NAME: &str = "a_deflected_cap_moves_the_tool";
 
-#[test]
-fn a_deflected_cap_moves_the_tool() {
+/// Whether this is the inner run, which then goes on; the outer one has a machine with a cap that does as `act` says.
+fn inner(name: &str, act: impl FnOnce(&mut Machine)) -> bool {
     if std::env::var_os(INNER).is_some() {
-        return moves();
+        return true;
     }
     let probe = Command::new("true").env("LD_PRELOAD", "libumockdev-preload.so.0").output().unwrap();
     if !probe.stderr.is_empty() {
         println!("SKIPPED: no umockdev (apt-get install umockdev)");
-        return;
+        return false;
     }
-    let mut machine = Machine::new("spacemouse").unwrap();
-    // 350 to the right, 175 to the user; button 1 down; nonsense in between.
-    machine.say(&[1, 0x5E, 0x01, 0xAF, 0x00, 0, 0]);
-    machine.say(&[9, 9, 9]);
-    machine.say(&[3, 0b10]);
+    let mut machine = Machine::new(name).unwrap();
+    act(&mut machine);
     let output = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", NAME, "--nocapture", "--test-threads=1"])
+        .args(["--exact", name, "--nocapture", "--test-threads=1"])
         .envs(machine.environment())
         .env(INNER, "1")
         .output()
         .unwrap();
     let told = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{told}\n{}", String::from_utf8_lossy(&output.stderr));
+    false
+}
+
+#[test]
+fn a_deflected_cap_moves_the_tool() {
+    // 350 to the right, 175 to the user; button 1 down; nonsense in between.
+    let act = |machine: &mut Machine| {
+        machine.say(&[1, 0x5E, 0x01, 0xAF, 0x00, 0, 0]);
+        machine.say(&[9, 9, 9]);
+        machine.say(&[3, 0b10]);
+    };
+    if inner("a_deflected_cap_moves_the_tool", act) {
+        moves();
+    }
+}
+
+#[test]
+fn an_unplugged_cap_is_lost() {
+    let act = |machine: &mut Machine| {
+        machine.say(&[1, 0x5E, 0x01, 0, 0, 0, 0]);
+        machine.unplug();
+    };
+    if inner("an_unplugged_cap_is_lost", act) {
+        let mut device = SpaceMouse::open(DVec3::Y).unwrap();
+        let lost = device.read(0.0).unwrap_err().to_string();
+        assert_eq!(
+            lost,
+            "spacemouse does not answer any more, its cable is out: plug it in, and start again"
+        );
+    }
 }
 
 fn moves() {

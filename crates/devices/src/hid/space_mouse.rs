@@ -1,7 +1,6 @@
 //! A 3Dconnexion cap that moves the tool.
 
-use super::motion_report::MotionReport;
-use super::reports::Reports;
+use super::{Gone, MotionReport, Reports, system};
 use crate::{DeviceError, HapticDevice, Pacing};
 use glam::{DQuat, DVec3};
 use hapflow_haptics::{GatedWrench, ToolState};
@@ -18,7 +17,7 @@ const MAX_STEP_S: f64 = 0.05;
 
 /// A SpaceMouse or its like: a cap whose deflection is a velocity. It gives no force.
 pub struct SpaceMouse {
-    reports: Reports,
+    reports: Box<dyn Reports>,
     cap: MotionReport,
     start: DVec3,
     state: ToolState,
@@ -46,8 +45,13 @@ impl SpaceMouse {
     /// # Errors
     /// [`DeviceError`] if there is none, or it may not be opened.
     pub fn open(start: DVec3) -> Result<Self, DeviceError> {
+        Ok(Self::over(system::open(NAME)?, start))
+    }
+
+    /// The one that makes these reports.
+    pub fn over(reports: Box<dyn Reports>, start: DVec3) -> Self {
         let (cap, state) = (MotionReport::default(), ToolState::at(start));
-        Ok(Self { reports: Reports::open(NAME)?, cap, start, state, times: None, closed: false })
+        Self { reports, cap, start, state, times: None, closed: false }
     }
 
     /// Takes the reports that have come, and says whether there were any.
@@ -57,7 +61,7 @@ impl SpaceMouse {
             match self.reports.next(&mut report) {
                 Ok(0) => return Ok(n > 0),
                 Ok(len) => self.cap.take(&report[..len.min(REPORT_BYTES)]),
-                Err(()) => {
+                Err(Gone) => {
                     let (cause, remedy) = ("its cable is out", "plug it in, and start again");
                     return Err(DeviceError::Lost { device: NAME, cause, remedy });
                 }

@@ -21,8 +21,11 @@ const DESCRIPTOR: [u8; 20] = [
 pub struct Machine {
     root: PathBuf,
     fifo: File,
-    reports: Arc<Mutex<VecDeque<Vec<u8>>>>,
+    reports: Arc<Mutex<Reports>>,
 }
+
+/// Reports that wait; nothing is the end of the device.
+type Reports = VecDeque<Option<Vec<u8>>>;
 
 impl Machine {
     pub fn new(name: &str) -> io::Result<Self> {
@@ -33,7 +36,7 @@ impl Machine {
         let made = std::process::Command::new("mkfifo").arg(&node).status()?;
         assert!(made.success());
         let fifo = OpenOptions::new().read(true).write(true).custom_flags(libc::O_NONBLOCK).open(&node)?;
-        let reports: Arc<Mutex<VecDeque<Vec<u8>>>> = Arc::default();
+        let reports: Arc<Mutex<Reports>> = Arc::default();
         create_dir_all(root.join("ioctl/dev"))?;
         let listener = UnixListener::bind(root.join("ioctl/dev/hidraw0"))?;
         let (theirs, waiting) = (Arc::clone(&reports), fifo.try_clone()?);
@@ -50,7 +53,16 @@ impl Machine {
 
     /// The device says this.
     pub fn say(&mut self, report: &[u8]) {
-        self.reports.lock().unwrap().push_back(report.to_vec());
+        self.put(Some(report.to_vec()));
+    }
+
+    /// Its cable is pulled, after what it has said.
+    pub fn unplug(&mut self) {
+        self.put(None);
+    }
+
+    fn put(&mut self, report: Option<Vec<u8>>) {
+        self.reports.lock().unwrap().push_back(report);
         self.fifo.write_all(b"x").unwrap();
     }
 
@@ -114,7 +126,7 @@ fn describe(root: &Path) -> io::Result<()> {
 struct Client {
     stream: UnixStream,
     fifo: File,
-    reports: Arc<Mutex<VecDeque<Vec<u8>>>>,
+    reports: Arc<Mutex<Reports>>,
 }
 
 impl Client {
@@ -145,7 +157,11 @@ impl Client {
     fn read(&mut self, address: u64, room: u64) -> io::Result<(i64, i32)> {
         let waits = self.fifo.read(&mut [0]).is_ok_and(|n| n == 1);
         let report = self.reports.lock().unwrap().pop_front().filter(|_| waits);
-        let Some(report) = report else { return Ok((-1, libc::EAGAIN)) };
+        let report = match report {
+            Some(Some(report)) => report,
+            Some(None) => return Ok((-1, libc::EIO)),
+            None => return Ok((-1, libc::EAGAIN)),
+        };
         let len = report.len().min(room as usize);
         self.store(address, &report[..len])?;
         Ok((len as i64, 0))
