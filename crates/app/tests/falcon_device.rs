@@ -75,25 +75,34 @@ fn the_demo_runs_from_power_on_to_summary() {
     assert!(folder.join("summary.json").is_file());
 }
 
-/// As Ctrl-C does: the run ends by itself, with its results.
-#[cfg(target_os = "linux")]
+/// As Ctrl-C does, a closed terminal, or a system that ends: the run ends by itself, with its results.
+#[cfg(unix)]
 #[test]
-fn an_interrupt_ends_a_run_with_its_results() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("interrupted");
+fn every_signal_that_ends_programs_ends_a_run_with_its_results() {
+    let runs = ["INT", "TERM", "HUP"].map(|signal| (signal, endless(signal)));
+    for (signal, mut run) in runs {
+        let mut told = BufReader::new(run.stderr.take().unwrap()).lines();
+        assert!(told.any(|line| line.unwrap() == "homed"));
+        let sent = Command::new("kill").args([&format!("-{signal}"), &run.id().to_string()]).status();
+        assert!(sent.unwrap().success());
+        let output = run.wait_with_output().unwrap();
+        assert!(output.status.success(), "{signal}: {output:?}");
+        assert!(String::from_utf8(output.stdout).unwrap().contains("mean force"), "{signal}");
+    }
+}
+
+/// A run that would go on for ten minutes.
+#[cfg(unix)]
+fn endless(name: &str) -> std::process::Child {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("ended-by-{name}"));
     let words = ["run", "tap", "--device", "emulated-falcon", "--realtime", "--duration", "600"];
-    let mut run = Command::new(env!("CARGO_BIN_EXE_hapflow"))
+    Command::new(env!("CARGO_BIN_EXE_hapflow"))
         .args(words)
         .args(["--set", "run.backend=analytic-jet", "--out", folder.to_str().unwrap()])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
-        .unwrap();
-    let mut told = BufReader::new(run.stderr.take().unwrap()).lines();
-    assert!(told.any(|line| line.unwrap() == "homed"));
-    assert!(Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap().success());
-    let output = run.wait_with_output().unwrap();
-    assert!(output.status.success(), "{output:?}");
-    assert!(String::from_utf8(output.stdout).unwrap().contains("mean force"));
+        .unwrap()
 }
 
 #[test]

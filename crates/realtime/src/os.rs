@@ -9,3 +9,14 @@ pub(crate) use linux::*;
 mod other;
 #[cfg(not(target_os = "linux"))]
 pub(crate) use other::*;
+
+#[cfg(unix)]
+#[path = "os/signals.rs"]
+mod stop;
+#[cfg(windows)]
+#[path = "os/console.rs"]
+mod stop;
+#[cfg(not(any(unix, windows)))]
+#[path = "os/no_stop.rs"]
+mod stop;
+pub(crate) use stop::catch_stop;

@@ -1,6 +1,5 @@
 //! Linux: `clock_nanosleep(2)`, `sched_setscheduler(2)`, `mlockall(2)`, `getrlimit(2)`.
 
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::{io, mem, ptr};
 
 use crate::status::Refusal;
@@ -21,32 +20,6 @@ pub(crate) fn process_cpu_s() -> f64 {
     // SAFETY: `used` is a timespec to write to. The call cannot fail: this clock is always there.
     unsafe { libc::clock_gettime(libc::CLOCK_PROCESS_CPUTIME_ID, &mut used) };
     used.tv_sec as f64 + used.tv_nsec as f64 / NS_PER_S as f64
-}
-
-static STOP_ASKED: AtomicBool = AtomicBool::new(false);
-
-/// Whether a signal has come.
-pub(crate) fn stop_asked() -> bool {
-    STOP_ASKED.load(Ordering::Acquire)
-}
-
-extern "C" fn note_stop(_signal: libc::c_int) {
-    // All that a signal handler may do.
-    STOP_ASKED.store(true, Ordering::Release);
-}
-
-/// Sets [`stop_asked`] at the first of each signal; the next of that kind acts as ever.
-pub(crate) fn catch_stop() -> bool {
-    // SAFETY: the zeroed action is valid, and its handler only sets an atomic; null asks for no old action.
-    unsafe {
-        let mut action: libc::sigaction = mem::zeroed();
-        action.sa_sigaction = note_stop as *const () as libc::sighandler_t;
-        action.sa_flags = libc::SA_RESETHAND | libc::SA_RESTART;
-        libc::sigemptyset(&mut action.sa_mask);
-        [libc::SIGINT, libc::SIGTERM, libc::SIGHUP]
-            .into_iter()
-            .all(|signal| libc::sigaction(signal, &action, ptr::null_mut()) == 0)
-    }
 }
 
 /// Sleeps until [`monotonic_ns`] is `t`, through any signals.
@@ -139,18 +112,5 @@ fn done(result: i32) -> Result<(), Refusal> {
     match result {
         0 => Ok(()),
         _ => Err(Refusal::System { code: io::Error::last_os_error().raw_os_error().unwrap_or(0) }),
-    }
-}
-
-#[cfg(all(test, not(loom)))]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_signal_is_noted_and_the_program_goes_on() {
-        assert!(catch_stop() && !stop_asked());
-        // SAFETY: the handler is in place.
-        assert_eq!(unsafe { libc::raise(libc::SIGHUP) }, 0);
-        assert!(stop_asked());
     }
 }

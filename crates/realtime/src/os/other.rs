@@ -44,13 +44,3 @@ pub(crate) fn lock_memory() -> Result<(), Refusal> {
 pub(crate) fn unlock_memory() -> Result<(), Refusal> {
     Err(Refusal::NotSupported)
 }
-
-/// There are no signals that could be caught without more.
-pub(crate) fn catch_stop() -> bool {
-    false
-}
-
-/// None comes.
-pub(crate) fn stop_asked() -> bool {
-    false
-}
