@@ -214,22 +214,9 @@ pub enum FalconCommand {
         #[command(flatten)]
         falcon: FalconArgs,
     },
-    /// Home, then take the arms' zero angles from a place at which the grip is held, and print the parameter file.
-    Calibrate {
-        /// Where the grip is held, in the Falcon's frame (origin: middle of the base's front, x right, y up, z towards the
-        /// user), m.
-        #[arg(
-            long,
-            value_name = "X,Y,Z",
-            value_delimiter = ',',
-            required = true,
-            allow_negative_numbers = true
-        )]
-        at: Vec<f64>,
-        /// The Falcon.
-        #[command(flatten)]
-        falcon: FalconArgs,
-    },
+    /// Find this unit's zero angles and motor counts a newton metre, and print the parameter file (or write it, with --out), which
+    /// --geometry takes.
+    Calibrate(CalibrateArgs),
     /// Write the udev rule with which Linux lets its users have a Falcon (as root).
     Udev,
     /// Encoder counts to places: reads enc0_counts, enc1_counts, enc2_counts; adds x_m, y_m, z_m.
@@ -241,6 +228,32 @@ pub enum FalconCommand {
     Decode(FileArgs),
     /// Packets for the device: reads motor0_counts to 2, led_mask (green 2, blue 4, red 8), homing; adds bytes_hex.
     Encode(FileArgs),
+}
+
+/// What a calibration is taken from.
+#[derive(Debug, Args)]
+#[command(group(clap::ArgGroup::new("readings").required(true).multiple(true).args(["at", "mass", "places", "masses"])))]
+pub struct CalibrateArgs {
+    /// Home, and take the zero angles from the grip as it is held at this place, in the Falcon's frame (origin: middle of the
+    /// base's front, x right, y up, z towards the user), m.
+    #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_negative_numbers = true)]
+    pub at: Option<Vec<f64>>,
+    /// Home, and take the counts a newton metre from what the motors give to carry the bare grip, and then the grip with this
+    /// mass hung on it, 0.02 to 0.5 kg. Gives force: up to 8 N.
+    #[arg(long, value_name = "KG", allow_negative_numbers = true)]
+    pub mass: Option<f64>,
+    /// Take the zero angles from readings: enc0_counts to 2, x_m, y_m, z_m.
+    #[arg(long, value_name = "FILE.csv", conflicts_with = "at")]
+    pub places: Option<PathBuf>,
+    /// Take the counts a newton metre from readings at rest: enc0_counts to 2, motor0_counts to 2, mass_kg.
+    #[arg(long, value_name = "FILE.csv", conflicts_with = "mass")]
+    pub masses: Option<PathBuf>,
+    /// Write the parameter file here, and not to the terminal.
+    #[arg(long, value_name = "FILE.toml")]
+    pub out: Option<PathBuf>,
+    /// The Falcon.
+    #[command(flatten)]
+    pub falcon: FalconArgs,
 }
 
 /// A file.
@@ -345,9 +358,11 @@ pub fn explain(error: &clap::Error) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let text = error.to_string();
-    let mut lines = text.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with("Usage"));
-    let first = lines.next().unwrap_or("error: unusable arguments").trim_start_matches("error: ");
-    let tip = lines.find(|l| l.starts_with("tip:")).map(|l| format!("; {l}")).unwrap_or_default();
+    let mut lines = text.lines().map(str::trim);
+    // What is missing stands in lines of its own, up to the first empty one.
+    let first = lines.by_ref().take_while(|line| !line.is_empty()).collect::<Vec<_>>().join(" ");
+    let first = first.trim_start_matches("error: ");
+    let tip = lines.find(|line| line.starts_with("tip:")).map(|line| format!("; {line}")).unwrap_or_default();
     eprintln!("hapflow: {first}{tip} (hapflow --help tells more)");
     ExitCode::from(2)
 }

@@ -8,7 +8,7 @@ use crate::outputs::{self, OutputError};
 use crate::stop::Stop;
 use crate::summary::Summary;
 use hapflow_devices::DeviceError;
-use hapflow_devices::falcon::{FalconError, GeometryError};
+use hapflow_devices::falcon::{CalibrationError, FalconError, GeometryError};
 use hapflow_engine::run::{Outcome, Progress, RunOptions, real_time, virtual_clock};
 use hapflow_engine::{Scene, SceneError, Value, load, settings};
 use hapflow_validation::ValidationError;
@@ -34,6 +34,9 @@ pub enum Failure {
     /// A parameter set of a Falcon that cannot be used.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
+    /// Readings that give no calibration.
+    #[error(transparent)]
+    Calibration(#[from] CalibrationError),
     /// A device that is not there, cannot be used, or was lost.
     #[error(transparent)]
     Device(#[from] DeviceError),

@@ -136,6 +136,12 @@ fn what_cannot_be_is_refused() {
         "line 2: enc0_counts, enc1_counts, enc2_counts: the arms at",
     );
     refused(&["fk"], "enc0_counts\n0\n", "line 1: no column enc1_counts; found are enc0_counts");
+    refused(
+        &["fk"],
+        "enc0_counts,enc1_counts\n",
+        "line 1: no column enc2_counts; found are enc0_counts, enc1_counts",
+    );
+    refused(&["fk"], "", "line 1: no column enc0_counts; found are none");
     refused(&["fk", "--geometry", "novint"], counts, "geometry novint: no shipped set has that name");
     let place = "x_m,y_m,z_m,fx_N,fy_N,fz_N\n";
     refused(

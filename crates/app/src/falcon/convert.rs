@@ -6,14 +6,21 @@ use hapflow_devices::falcon::{Command, Kinematics, Leds, PACKET_BYTES, Reply, mo
 use std::fmt::Write;
 
 /// No place and no force of a hand is larger, m and N.
-const MAX_PLACE_M: f64 = 1.0;
+pub const MAX_PLACE_M: f64 = 1.0;
 const MAX_FORCE_N: f64 = 1000.0;
+
+/// Columns.
+pub const ENCODERS: [&str; 3] = ["enc0_counts", "enc1_counts", "enc2_counts"];
+pub const MOTORS: [&str; 3] = ["motor0_counts", "motor1_counts", "motor2_counts"];
+pub const PLACE: [&str; 3] = ["x_m", "y_m", "z_m"];
+const FORCE: [&str; 3] = ["fx_N", "fy_N", "fz_N"];
+const TORQUES: [&str; 3] = ["tau0_Nm", "tau1_Nm", "tau2_Nm"];
 
 /// Encoder counts to places.
 pub fn fk(table: &Table, kinematics: &Kinematics) -> Result<Vec<u8>, TableError> {
     let mut near = DVec3::ZERO;
-    table.with(&["x_m", "y_m", "z_m"], |row| {
-        let counts = counts(row, ["enc0_counts", "enc1_counts", "enc2_counts"])?;
+    table.with(&ENCODERS, &PLACE, |row| {
+        let counts = counts(row, ENCODERS)?;
         near = kinematics
             .forward(kinematics.geometry().angles(counts), near)
             .map_err(|cause| row.refuse_row("enc0_counts, enc1_counts, enc2_counts", cause))?;
@@ -23,10 +30,9 @@ pub fn fk(table: &Table, kinematics: &Kinematics) -> Result<Vec<u8>, TableError>
 
 /// Places and forces to motor counts, and the torques at the arms' axes that were asked of them.
 pub fn force(table: &Table, kinematics: &Kinematics) -> Result<Vec<u8>, TableError> {
-    let added = ["motor0_counts", "motor1_counts", "motor2_counts", "tau0_Nm", "tau1_Nm", "tau2_Nm"];
-    table.with(&added, |row| {
-        let place = vector(row, ["x_m", "y_m", "z_m"], MAX_PLACE_M)?;
-        let force = vector(row, ["fx_N", "fy_N", "fz_N"], MAX_FORCE_N)?;
+    table.with(&[PLACE, FORCE].concat(), &[MOTORS, TORQUES].concat(), |row| {
+        let place = vector(row, PLACE, MAX_PLACE_M)?;
+        let force = vector(row, FORCE, MAX_FORCE_N)?;
         let torques =
             kinematics.torques(place, force).map_err(|cause| row.refuse_row("x_m, y_m, z_m", cause))?;
         let motors = motor_counts(torques, kinematics.geometry().counts_per_nm);
@@ -37,8 +43,8 @@ pub fn force(table: &Table, kinematics: &Kinematics) -> Result<Vec<u8>, TableErr
 
 /// Packets of the device to what they say. What is no packet is not accepted, and says nothing.
 pub fn decode(table: &Table) -> Result<Vec<u8>, TableError> {
-    let added = ["accepted", "enc0_counts", "enc1_counts", "enc2_counts", "homing_bits", "button_bits"];
-    table.with(&added, |row| {
+    let added = ["accepted", ENCODERS[0], ENCODERS[1], ENCODERS[2], "homing_bits", "button_bits"];
+    table.with(&["bytes_hex"], &added, |row| {
         let text = row.text("bytes_hex")?;
         let bytes = bytes(text)
             .ok_or_else(|| row.refuse("bytes_hex", text, "bytes of two hexadecimal digits each"))?;
@@ -53,8 +59,9 @@ pub fn decode(table: &Table) -> Result<Vec<u8>, TableError> {
 
 /// Motor counts, lights and homing to packets for the device.
 pub fn encode(table: &Table) -> Result<Vec<u8>, TableError> {
-    table.with(&["bytes_hex"], |row| {
-        let motors = counts(row, ["motor0_counts", "motor1_counts", "motor2_counts"])?;
+    let needs = [MOTORS[0], MOTORS[1], MOTORS[2], "led_mask", "homing"];
+    table.with(&needs, &["bytes_hex"], |row| {
+        let motors = counts(row, MOTORS)?;
         let mask = row.whole("led_mask", 0, 14_u8)?;
         let leds = Leds::from_mask(mask).ok_or_else(|| {
             row.refuse("led_mask", &mask.to_string(), "a sum of 2 (green), 4 (blue) and 8 (red)")
@@ -72,7 +79,8 @@ fn counts(row: &Row<'_>, columns: [&str; 3]) -> Result<[i16; 3], TableError> {
     Ok(counts)
 }
 
-fn vector(row: &Row<'_>, columns: [&str; 3], limit: f64) -> Result<DVec3, TableError> {
+/// Three numbers, each within ±`limit`.
+pub fn vector(row: &Row<'_>, columns: [&str; 3], limit: f64) -> Result<DVec3, TableError> {
     let mut numbers = [0.0; 3];
     for (number, column) in numbers.iter_mut().zip(columns) {
         *number = row.number(column, limit)?;

@@ -1,11 +1,11 @@
-//! `hapflow falcon info`, `firmware`, `home`, `test`, `calibrate` and `udev`: a Falcon that is plugged in.
+//! `hapflow falcon info`, `firmware`, `home`, `test` and `udev`: a Falcon that is plugged in.
 
 use crate::cli::FalconArgs;
 use crate::run::Failure;
 use crate::stop::Stop;
 use glam::DVec3;
 use hapflow_devices::falcon::{
-    EmulatedFalcon, EmulatedHand, EmulatedTransport, Falcon, FalconError, FalconOptions, Firmware,
+    EmulatedFalcon, EmulatedHand, EmulatedTransport, Falcon, FalconError, FalconOptions, Firmware, Geometry,
     Kinematics, Transport, Trouble, UDEV_RULE, UDEV_RULE_FILE, open, plugged_in,
 };
 use hapflow_devices::{DeviceError, HapticDevice};
@@ -15,11 +15,6 @@ use std::path::Path;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
-/// How long a place is measured, s.
-const MEASURE_S: f64 = 1.0;
-/// A grip that is held still moves no arm by more counts than this, some 0.3 mm.
-const STILL_COUNTS: u16 = 8;
-
 /// Says what is plugged in, and what state the chosen one is in.
 pub fn info(args: &FalconArgs) -> Result<(), Failure> {
     if !args.emulated {
@@ -28,7 +23,7 @@ pub fn info(args: &FalconArgs) -> Result<(), Failure> {
             println!("bus {}, address {}: serial number {serial}", falcon.bus, falcon.address);
         }
     }
-    let mut falcon = falcon(args)?;
+    let (mut falcon, _) = falcon(args)?;
     match falcon.start(&mut |text| eprintln!("{text}")) {
         Ok(()) => println!("its firmware runs"),
         Err(FalconError::NoFirmware) => {
@@ -51,7 +46,7 @@ pub fn firmware(file: &Path, args: &FalconArgs) -> Result<(), Failure> {
     );
     let mut options = options(args)?;
     (options.firmware, options.always_load) = (Some(image), true);
-    let mut falcon = Falcon::new(transport(args, &options)?, options)?;
+    let mut falcon = Falcon::new(transport(args, &options)?.0, options)?;
     falcon.start(&mut |text| eprintln!("{text}")).map_err(DeviceError::from)?;
     println!("loaded, and it answers");
     Ok(())
@@ -66,7 +61,7 @@ pub fn home(args: &FalconArgs) -> Result<(), Failure> {
 pub fn test(seconds: f64, args: &FalconArgs) -> Result<(), Failure> {
     let seconds =
         check_range("--seconds", seconds, 0.1, 3600.0).map_err(|error| Failure::Word(error.to_string()))?;
-    let (mut falcon, stop) = ready(args)?;
+    let (mut falcon, stop, _) = ready(args)?;
     let before = falcon.stats();
     let (begin, mut last, mut longest) = (Instant::now(), Instant::now(), 0.0_f64);
     let (mut low, mut high, mut pressed) = (DVec3::INFINITY, DVec3::NEG_INFINITY, 0);
@@ -92,48 +87,6 @@ pub fn test(seconds: f64, args: &FalconArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Takes the arms' zero angles from a place at which the grip is held.
-pub fn calibrate(at: &[f64], args: &FalconArgs) -> Result<(), Failure> {
-    let &[x, y, z] = at else { return Err(Failure::Word("--at: write it as X,Y,Z, in metres".into())) };
-    let (mut falcon, stop) = ready(args)?;
-    eprintln!("hold the grip still at ({x}, {y}, {z}) m");
-    let held = held(&mut falcon, &stop)?;
-    let mut geometry = options(args)?.geometry;
-    let angles = Kinematics::new(geometry.clone())
-        .inverse(DVec3::new(x, y, z))
-        .map_err(|error| Failure::Word(format!("--at: {error}")))?;
-    let off = geometry.counts(angles);
-    let per_count = 360.0 / (geometry.encoder_counts * geometry.gear_ratio);
-    for arm in 0..3 {
-        geometry.zero_deg[arm] += (off[arm] - held[arm]) * per_count;
-    }
-    geometry
-        .check()
-        .map_err(|error| Failure::Word(format!("--at: {error}; is the grip where it should be?")))?;
-    print!("{}", geometry.text());
-    Ok(())
-}
-
-/// The mean encoder counts, once the grip has been held still for long enough.
-fn held(falcon: &mut Falcon, stop: &Stop) -> Result<[f64; 3], Failure> {
-    let mut begin = Instant::now();
-    let (mut first, mut sums, mut count) = ([0; 3], [0.0; 3], 0.0);
-    while begin.elapsed().as_secs_f64() < MEASURE_S {
-        if stop.flow().is_break() {
-            return Err(DeviceError::from(FalconError::Stopped).into());
-        }
-        falcon.read(0.0)?;
-        falcon.write(GatedWrench::ZERO, 1e-3)?;
-        let encoders = falcon.stats().encoders;
-        if count == 0.0 || (0..3).any(|arm| encoders[arm].abs_diff(first[arm]) > STILL_COUNTS) {
-            (begin, first, sums, count) = (Instant::now(), encoders, [0.0; 3], 0.0);
-        }
-        (0..3).for_each(|arm| sums[arm] += f64::from(encoders[arm]));
-        count += 1.0;
-    }
-    Ok(sums.map(|sum| sum / count))
-}
-
 /// Writes the rule.
 pub fn udev() -> Result<(), Failure> {
     let text = format!("# Lets users have a Novint Falcon.\n{UDEV_RULE}\n");
@@ -149,9 +102,12 @@ pub fn udev() -> Result<(), Failure> {
     Ok(())
 }
 
+/// What stands behind a Falcon that is emulated.
+pub type Emulated = Option<Arc<Mutex<EmulatedFalcon>>>;
+
 /// One that is homed.
-fn ready(args: &FalconArgs) -> Result<(Falcon, Stop), Failure> {
-    let mut falcon = falcon(args)?;
+pub fn ready(args: &FalconArgs) -> Result<(Falcon, Stop, Emulated), Failure> {
+    let (mut falcon, emulated) = falcon(args)?;
     let stop = Stop::arm(true);
     let mut told = String::new();
     falcon.prepare(&mut |text| {
@@ -161,12 +117,13 @@ fn ready(args: &FalconArgs) -> Result<(Falcon, Stop), Failure> {
         }
         stop.flow()
     })?;
-    Ok((falcon, stop))
+    Ok((falcon, stop, emulated))
 }
 
-fn falcon(args: &FalconArgs) -> Result<Falcon, Failure> {
+fn falcon(args: &FalconArgs) -> Result<(Falcon, Emulated), Failure> {
     let options = options(args)?;
-    Ok(Falcon::new(transport(args, &options)?, options)?)
+    let (transport, emulated) = transport(args, &options)?;
+    Ok((Falcon::new(transport, options)?, emulated))
 }
 
 fn options(args: &FalconArgs) -> Result<FalconOptions, Failure> {
@@ -178,11 +135,15 @@ fn options(args: &FalconArgs) -> Result<FalconOptions, Failure> {
     Ok(options)
 }
 
-fn transport(args: &FalconArgs, options: &FalconOptions) -> Result<Box<dyn Transport>, Failure> {
+fn transport(args: &FalconArgs, options: &FalconOptions) -> Result<(Box<dyn Transport>, Emulated), Failure> {
     if !args.emulated {
-        return Ok(open(args.serial.as_deref()).map_err(DeviceError::from)?);
+        return Ok((open(args.serial.as_deref()).map_err(DeviceError::from)?, None));
     }
-    let hand = EmulatedHand::new(Kinematics::new(options.geometry.clone()), &[], true)?;
+    // Whatever the driver believes of it, it is built as the default set says.
+    let kinematics = Kinematics::new(Geometry::load(Geometry::NAMES[0])?);
+    let hand = EmulatedHand::new(kinematics, &[], true)?;
     let device = EmulatedFalcon::new(hand, Trouble::default(), options.firmware.is_none());
-    Ok(Box::new(EmulatedTransport::new(Arc::new(Mutex::new(device)), Arc::new(RealClock::new()))))
+    let device = Arc::new(Mutex::new(device));
+    let transport = EmulatedTransport::new(Arc::clone(&device), Arc::new(RealClock::new()));
+    Ok((Box::new(transport), Some(device)))
 }

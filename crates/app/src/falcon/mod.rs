@@ -1,5 +1,6 @@
 //! `hapflow falcon`.
 
+mod calibrate;
 mod convert;
 mod device;
 mod table;
@@ -20,7 +21,7 @@ pub fn falcon(command: &FalconCommand) -> Result<(), Failure> {
         FalconCommand::Firmware { file, falcon } => device::firmware(file, falcon),
         FalconCommand::Home(args) => device::home(args),
         FalconCommand::Test { seconds, falcon } => device::test(*seconds, falcon),
-        FalconCommand::Calibrate { at, falcon } => device::calibrate(at, falcon),
+        FalconCommand::Calibrate(args) => calibrate::calibrate(args),
         FalconCommand::Udev => device::udev(),
         FalconCommand::Fk(args) => print(&convert::fk(&Table::read(&args.file)?, &kinematics(args)?)?),
         FalconCommand::Force(args) => print(&convert::force(&Table::read(&args.file)?, &kinematics(args)?)?),

@@ -99,13 +99,26 @@ impl Table {
         Ok(Self { file, header, rows })
     }
 
+    /// What `take` makes of each row; the columns that it `needs` must be there even where there are no rows.
+    pub fn rows<T>(
+        &self,
+        needs: &[&str],
+        take: impl Fn(&Row<'_>) -> Result<T, TableError>,
+    ) -> Result<Vec<T>, TableError> {
+        self.check(needs)?;
+        self.rows.iter().map(|cells| take(&Row { table: self, cells })).collect()
+    }
+
     /// The table with `added` columns, whose cells `fill` makes of each row. A column that has one of these names already
-    /// is filled anew in its place; all others stay as they are.
+    /// is filled anew in its place; all others stay as they are. The columns that `fill` `needs` must be there even where there are no
+    /// rows.
     pub fn with(
         &self,
+        needs: &[&str],
         added: &[&str],
         mut fill: impl FnMut(&Row<'_>) -> Result<Vec<String>, TableError>,
     ) -> Result<Vec<u8>, TableError> {
+        self.check(needs)?;
         let places: Vec<Option<usize>> =
             added.iter().map(|name| self.header.iter().position(|known| known == *name)).collect();
         let mut lines = vec![merge(&self.header, &places, added.iter().map(|name| (*name).to_owned()))];
@@ -118,6 +131,30 @@ impl Table {
         let failed = |cause: String| TableError::Line { file: self.file.clone(), line: 0, cause };
         written.map_err(|error| failed(error.to_string()))?;
         writer.into_inner().map_err(|error| failed(error.to_string()))
+    }
+
+    fn check(&self, needs: &[&str]) -> Result<(), TableError> {
+        needs.iter().try_for_each(|column| self.place(column).map(drop))
+    }
+
+    /// Where `column` stands.
+    fn place(&self, column: &str) -> Result<usize, TableError> {
+        let mut places = self.header.iter().enumerate().filter(|(_, name)| *name == column);
+        let problem = match (places.next(), places.next()) {
+            (Some((at, _)), None) => return Ok(at),
+            (None, _) => "no",
+            (Some(_), Some(_)) => "more than one",
+        };
+        Err(TableError::Column {
+            file: self.file.clone(),
+            problem,
+            column: column.to_owned(),
+            found: if self.header.is_empty() {
+                "none".into()
+            } else {
+                self.header.iter().collect::<Vec<_>>().join(", ")
+            },
+        })
     }
 }
 
@@ -146,25 +183,19 @@ fn cause(error: &csv::Error) -> String {
 impl Row<'_> {
     /// The text in `column`.
     pub fn text(&self, column: &str) -> Result<&str, TableError> {
-        let mut places = self.table.header.iter().zip(self.cells).filter(|(name, _)| *name == column);
-        let problem = match (places.next(), places.next()) {
-            (Some((_, cell)), None) => return Ok(cell),
-            (None, _) => "no",
-            (Some(_), Some(_)) => "more than one",
-        };
-        Err(TableError::Column {
-            file: self.table.file.clone(),
-            problem,
-            column: column.to_owned(),
-            found: self.table.header.iter().collect::<Vec<_>>().join(", "),
-        })
+        Ok(self.cells.get(self.table.place(column)?).unwrap_or_default())
     }
 
     /// The number in `column`, finite and from `-limit` to `limit`.
     pub fn number(&self, column: &str, limit: f64) -> Result<f64, TableError> {
+        self.between(column, -limit, limit)
+    }
+
+    /// The number in `column`, from `min` to `max`.
+    pub fn between(&self, column: &str, min: f64, max: f64) -> Result<f64, TableError> {
         let text = self.text(column)?;
-        let number = text.parse().ok().filter(|number: &f64| number.abs() <= limit);
-        number.ok_or_else(|| self.refuse(column, text, &format!("a number from -{limit} to {limit}")))
+        let number = text.parse().ok().filter(|number| (min..=max).contains(number));
+        number.ok_or_else(|| self.refuse(column, text, &format!("a number from {min} to {max}")))
     }
 
     /// The whole number in `column`, from `min` to `max`.
@@ -224,16 +255,16 @@ mod tests {
         let twice = |row: &Row<'_>| Ok(vec![format!("{}", 2.0 * row.number("a", 10.0)?)]);
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
         let table = table("a, note\n1,\"x, y\"\n2.5,\n");
-        assert_eq!(text(table.with(&["b"], twice).unwrap()), "a,note,b\n1,\"x, y\",2\n2.5,,5\n");
-        assert_eq!(text(table.with(&["note"], twice).unwrap()), "a,note\n1,2\n2.5,5\n");
+        assert_eq!(text(table.with(&["a"], &["b"], twice).unwrap()), "a,note,b\n1,\"x, y\",2\n2.5,,5\n");
+        assert_eq!(text(table.with(&["a"], &["note"], twice).unwrap()), "a,note\n1,2\n2.5,5\n");
     }
 
     #[test]
     fn errors_name_file_line_column_and_range() {
         let error = |text: &str| {
             let read = Table::parse(text.as_bytes(), "t.csv".into());
-            let filled =
-                read.and_then(|t| t.with(&["b"], |row| Ok(vec![row.whole("a", -5, 5_i16)?.to_string()])));
+            let filled = read
+                .and_then(|t| t.with(&["a"], &["b"], |row| Ok(vec![row.whole("a", -5, 5_i16)?.to_string()])));
             filled.unwrap_err().to_string()
         };
         let range = "must be a whole number from -5 to 5";
@@ -244,6 +275,8 @@ mod tests {
             error("a\n99999999999999999999\n"),
             format!("t.csv, line 2: a = \"99999999999999999999\" {range}")
         );
+        assert_eq!(error("c,d\n"), "t.csv, line 1: no column a; found are c, d");
+        assert_eq!(error(""), "t.csv, line 1: no column a; found are none");
         assert_eq!(error("c,d\n1,2\n"), "t.csv, line 1: no column a; found are c, d");
         assert_eq!(error("a,a\n1,2\n"), "t.csv, line 1: more than one column a; found are a, a");
         let expected =
@@ -253,8 +286,9 @@ mod tests {
 
     #[test]
     fn a_number_must_be_one_and_in_range() {
-        let read =
-            |text: &str| table(&format!("a\n{text}\n")).with(&[], |row| row.number("a", 2.0).map(|_| vec![]));
+        let read = |text: &str| {
+            table(&format!("a\n{text}\n")).with(&[], &[], |row| row.number("a", 2.0).map(|_| vec![]))
+        };
         assert!(read("-2").is_ok() && read("1e-3").is_ok());
         for text in ["\"\"", "x", "nan", "inf", "2.1"] {
             assert!(read(text).unwrap_err().to_string().ends_with("must be a number from -2 to 2"), "{text}");

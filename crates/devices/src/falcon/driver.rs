@@ -86,6 +86,8 @@ pub struct FalconStats {
     pub line_errors: u64,
     /// The encoders, as they came last.
     pub encoders: [i16; 3],
+    /// The motors, as they were commanded last.
+    pub motors: [i16; 3],
 }
 
 /// What it may do.
@@ -156,7 +158,17 @@ impl Falcon {
     /// How the exchange goes so far.
     pub fn stats(&self) -> FalconStats {
         let (dropped_bytes, line_errors) = (self.exchange.dropped_bytes(), self.exchange.line.errors());
-        FalconStats { dropped_bytes, line_errors, ..self.stats }
+        FalconStats { dropped_bytes, line_errors, motors: self.command.motors, ..self.stats }
+    }
+
+    /// The time on the device's own clock, s.
+    pub(super) fn now_s(&self) -> f64 {
+        self.exchange.line.now_ns() as f64 * 1e-9
+    }
+
+    /// The middle of its workspace, as it tells places, m.
+    pub(super) fn middle(&self) -> DVec3 {
+        FalconOptions::MIDDLE + self.options.offset
     }
 
     /// Brings it to where its firmware answers, loading one if none runs. Thread: main, may take seconds.

@@ -106,6 +106,9 @@ pub enum FalconError {
     /// It is used before [`prepare`](crate::HapticDevice::prepare).
     #[error("the Falcon is not homed yet: prepare it first")]
     NotReady,
+    /// While the motors carried the grip it was drawn off its path.
+    #[error("the grip got away: hold it in the middle of its room, let go of it gently, and start again")]
+    GotAway,
     /// It has forgotten its marks.
     #[error("the Falcon has lost its homing: check the 30 V supply, and home it again")]
     Unhomed,

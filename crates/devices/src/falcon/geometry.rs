@@ -169,9 +169,9 @@ impl Geometry {
     }
 
     /// Arm angles at these encoder counts, rad.
-    pub fn angles(&self, counts: [i16; 3]) -> [f64; 3] {
+    pub fn angles<C: Into<f64> + Copy>(&self, counts: [C; 3]) -> [f64; 3] {
         let per_count = self.deg_per_count();
-        std::array::from_fn(|leg| (self.zero_deg[leg] + per_count * f64::from(counts[leg])).to_radians())
+        std::array::from_fn(|leg| (self.zero_deg[leg] + per_count * counts[leg].into()).to_radians())
     }
 
     /// The encoder counts at these arm angles (rad), not rounded.

@@ -10,8 +10,10 @@
 //! | USB, real or emulated | [`Transport`] |
 //! | a Falcon that is not there | [`EmulatedFalcon`] |
 //! | the device | [`Falcon`] |
+//! | what one unit's zero angles and strength are | [`zeros`], [`strength`] |
 
 mod boot;
+mod calibration;
 mod driver;
 mod emulation;
 mod error;
@@ -19,6 +21,7 @@ mod exchange;
 mod firmware;
 mod geometry;
 mod kinematics;
+mod measuring;
 mod motors;
 mod packet;
 mod serial;
@@ -30,12 +33,17 @@ mod usb;
 #[path = "no_usb.rs"]
 mod usb;
 
+pub use calibration::{
+    CalibrationError, LARGEST_LOAD_KG, LEAST_LOAD_KG, LoadReading, PlaceReading, Strength, Zeros, strength,
+    zeros,
+};
 pub use driver::{Falcon, FalconOptions, FalconStats};
 pub use emulation::{EmulatedFalcon, EmulatedHand, EmulatedTransport, Trouble};
 pub use error::{FalconError, Stage, UDEV_RULE, UDEV_RULE_FILE};
 pub use firmware::{Firmware, FirmwareError};
 pub use geometry::{Geometry, GeometryError};
 pub use kinematics::{FREE_DISCS, Kinematics, PoseError};
+pub use measuring::{Ask, Request};
 pub use motors::{MAX_MOTOR_COUNTS, motor_counts, torques_of};
 pub use packet::{Command, Leds, PACKET_BYTES, Reply};
 pub use stream::ByteStream;

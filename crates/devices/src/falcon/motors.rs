@@ -20,8 +20,8 @@ pub fn motor_counts(torques: DVec3, counts_per_nm: f64) -> [i16; 3] {
 }
 
 /// The torques that these counts give, N·m.
-pub fn torques_of(counts: [i16; 3], counts_per_nm: f64) -> DVec3 {
-    DVec3::from_array(counts.map(f64::from)) / -counts_per_nm
+pub fn torques_of<C: Into<f64>>(counts: [C; 3], counts_per_nm: f64) -> DVec3 {
+    DVec3::from_array(counts.map(C::into)) / -counts_per_nm
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use crate::{
     AtEnd, DeviceError, HandPreset, HandSettings, HapticDevice, Segment, SimulatedHand, TargetScript,
 };
 use glam::DVec3;
+use hapflow_haptics::check_range;
 
 /// Where the grip is when the device is plugged in, m.
 const START: DVec3 = DVec3::new(0.0, 0.0, 0.115);
@@ -12,6 +13,11 @@ const START: DVec3 = DVec3::new(0.0, 0.0, 0.115);
 const MIDDLE: DVec3 = DVec3::new(0.0, 0.0, 0.125);
 /// Counts at which the arms find their marks on their way in. An assumption: nobody has published them.
 const MARKS: [f64; 3] = [640.0, 600.0, 620.0];
+/// The grip's weight, kg, within what is guessed of the real one; and its dry friction, N, likewise.
+const GRIP_KG: f64 = 0.12;
+const FRICTION_N: f64 = 0.3;
+/// Standard gravity, m/s².
+const GRAVITY: f64 = 9.80665;
 /// How long a command acts if no other follows, ns. An assumption: it is known to be short.
 const HOLD_NS: u64 = 50_000_000;
 
@@ -20,6 +26,8 @@ pub struct EmulatedHand {
     kinematics: Kinematics,
     hand: SimulatedHand,
     powered: bool,
+    /// Weight that nobody but the motors carries, N.
+    weight: DVec3,
     /// When the device first asked to be homed, ns: the script's beginning.
     begun_ns: Option<u64>,
     commanded_ns: u64,
@@ -49,6 +57,7 @@ impl EmulatedHand {
             kinematics,
             hand,
             powered,
+            weight: DVec3::ZERO,
             begun_ns: None,
             commanded_ns: 0,
             motors: [0; 3],
@@ -74,6 +83,20 @@ impl EmulatedHand {
         self.kinematics.force(self.place(), torques).unwrap_or_default()
     }
 
+    /// The hand lets go of the grip, on which `load_kg` hang, kg, 0 to 5: its weight and that of the load draw at it, and its dry
+    /// friction holds it back.
+    ///
+    /// # Errors
+    /// [`DeviceError::Setting`] for another load.
+    pub fn let_go(&mut self, load_kg: f64) -> Result<(), DeviceError> {
+        let free = HandSettings::preset(HandPreset::Free);
+        let device_mass_kg = free.device_mass_kg + check_range("load_kg", load_kg, 0.0, 5.0)?;
+        let settings = HandSettings { device_mass_kg, device_friction_n: FRICTION_N, ..free };
+        self.hand = SimulatedHand::new(settings, TargetScript::new(self.place(), &[], AtEnd::Hold)?)?;
+        self.weight = DVec3::NEG_Y * (GRAVITY * (GRIP_KG + load_kg));
+        Ok(())
+    }
+
     /// Presses these buttons.
     pub fn press(&mut self, buttons: u8) {
         self.buttons = buttons;
@@ -92,7 +115,7 @@ impl EmulatedHand {
         if now.saturating_sub(self.commanded_ns) > HOLD_NS {
             self.motors = [0; 3];
         }
-        self.hand.feel(self.felt());
+        self.hand.feel(self.felt() + self.weight);
         let since = self.begun_ns.map_or(0, |begun| now.saturating_sub(begun));
         let _ = self.hand.read(since as f64 * 1e-9);
         if let Some(counts) = counts(&self.kinematics, self.place()) {
