@@ -200,6 +200,98 @@ fn spoilt_lost_and_late_replies_are_got_over() {
     assert!(farthest < 3e-3, "{farthest} m");
 }
 
+/// A digit that is wrong, and looks right, moves nothing.
+#[test]
+fn misread_encoders_are_not_believed() {
+    let bench = Bench::new(&stir(), Trouble::default(), true);
+    let mut falcon = ready(&bench);
+    bench.device().trouble().misreads_every = 7;
+    let (mut last, mut farthest) = (tick(&mut falcon, DVec3::ZERO).unwrap(), 0.0_f64);
+    for _ in 0..3000 {
+        let place = tick(&mut falcon, DVec3::X).unwrap();
+        farthest = farthest.max(place.distance(last));
+        last = place;
+    }
+    let stats = falcon.stats();
+    assert!(stats.unsound > 300, "{stats:?}");
+    assert!(farthest < 1e-3, "a jump of {farthest} m");
+}
+
+/// It is not the device that was silent.
+#[test]
+fn a_program_that_was_held_up_finds_the_reply_and_begins_without_force() {
+    let bench = Bench::new(&[], Trouble::default(), true);
+    let mut falcon = ready(&bench);
+    for _ in 0..200 {
+        tick(&mut falcon, DVec3::Y * 2.0).unwrap();
+    }
+    let full = bench.motors()[0].abs();
+    for pause_ms in [30, 150, 5000] {
+        bench.clock.advance_ns(pause_ms * 1_000_000);
+        tick(&mut falcon, DVec3::Y * 2.0).unwrap();
+        tick(&mut falcon, DVec3::Y * 2.0).unwrap();
+        assert!(bench.motors()[0].abs() < full / 20, "after {pause_ms} ms: {:?}", bench.motors());
+        for _ in 0..200 {
+            tick(&mut falcon, DVec3::Y * 2.0).unwrap();
+        }
+        assert!(bench.motors()[0].abs() > full / 2);
+    }
+    assert_eq!(falcon.stats().resent, 0);
+}
+
+/// Whatever happens at whatever moment: no panic, no force before it is homed, and none at the end.
+#[test]
+fn it_may_be_unplugged_at_any_moment() {
+    for n in 0..120 {
+        let bench = Bench::new(&stir(), Trouble::default(), false);
+        bench.device().trouble().unplugged_ns = Some(n * 77_000_003);
+        let mut falcon = bench.falcon();
+        let begun = falcon.prepare(&mut |_| {
+            assert_eq!(bench.motors(), [0; 3]);
+            ControlFlow::Continue(())
+        });
+        let gone = begun.err().or_else(|| (0..10_000).find_map(|_| tick(&mut falcon, DVec3::Y).err()));
+        assert_eq!(gone, Some(lost(LinkError::Unplugged)), "at {} ms", n * 77);
+        assert!(falcon.read(0.0).is_err() && falcon.write(gated(DVec3::Y), 1e-3).is_err());
+        falcon.close();
+    }
+}
+
+/// All troubles at once, drawn by a generator with a fixed seed.
+#[test]
+fn no_mixture_of_troubles_makes_it_panic_or_leaves_force() {
+    let mut state = 7_u64;
+    let mut draw = |below: u64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) % below
+    };
+    for n in 0..60 {
+        let trouble = Trouble {
+            deaf_handshakes: draw(20) as u32,
+            leading_zero: draw(2) == 1,
+            spoilt_loads: draw(3) as u32,
+            loses_byte_every: draw(60),
+            garbles_every: draw(60),
+            misreads_every: draw(60),
+            late_every: draw(60),
+            late_ns: draw(120_000_000),
+            ..Trouble::default()
+        };
+        let bench = Bench::new(&stir(), trouble, draw(2) == 1);
+        let mut falcon = bench.falcon();
+        let begun = falcon.prepare(&mut |_| {
+            assert_eq!(bench.motors(), [0; 3]);
+            ControlFlow::Continue(())
+        });
+        let silent = bench.device().commanded().1 + 1000 + draw(1000);
+        bench.device().trouble().silent_after = Some(silent);
+        let gone = begun.err().or_else(|| (0..10_000).find_map(|_| tick(&mut falcon, DVec3::Y).err()));
+        assert!(gone.is_some(), "mixture {n}");
+        drop(falcon);
+        assert_eq!(bench.motors(), [0; 3], "mixture {n}: {gone:?}");
+    }
+}
+
 #[test]
 fn silence_takes_the_force_away_and_then_the_device() {
     let bench = Bench::new(&[], Trouble::default(), true);

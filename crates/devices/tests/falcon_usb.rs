@@ -15,9 +15,11 @@ use hapflow_devices::falcon::{
 };
 use hapflow_devices::{DeviceError, HapticDevice, Segment};
 use std::ops::ControlFlow;
-use std::process::Command;
+use std::process::{Child, Command, Stdio};
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use usb::{Machine, SERIAL};
+use std::time::Duration;
+use usb::{Machine, SERIAL, Side};
 
 /// Set for the inner run.
 const INNER: &str = "HAPFLOW_INNER_TEST";
@@ -27,39 +29,62 @@ fn inner(name: &str, trouble: Trouble, firmware_runs: bool, set: impl FnOnce(&Ma
     if std::env::var_os(INNER).is_some() {
         return true;
     }
+    if !has_umockdev() {
+        return false;
+    }
+    let machine = Machine::new(name, emulated(trouble, firmware_runs)).unwrap();
+    set(&machine);
+    end(start(name, &machine), &machine);
+    false
+}
+
+fn has_umockdev() -> bool {
     let probe = Command::new("true").env("LD_PRELOAD", "libumockdev-preload.so.0").output().unwrap();
     if !probe.stderr.is_empty() {
         println!("SKIPPED: no umockdev (apt-get install umockdev)");
-        return false;
     }
+    probe.stderr.is_empty()
+}
+
+fn emulated(trouble: Trouble, firmware_runs: bool) -> EmulatedFalcon {
     let kinematics = Kinematics::new(Geometry::load("libnifalcon").unwrap());
     let stir =
         Segment::Sine { amplitude: DVec3::new(0.02, 0.01, 0.0), frequency_hz: 0.5, duration_s: 1000.0 };
-    let hand = EmulatedHand::new(kinematics, &[stir], true).unwrap();
-    let machine = Machine::new(name, EmulatedFalcon::new(hand, trouble, firmware_runs)).unwrap();
-    set(&machine);
-    let output = Command::new(std::env::current_exe().unwrap())
+    EmulatedFalcon::new(EmulatedHand::new(kinematics, &[stir], true).unwrap(), trouble, firmware_runs)
+}
+
+/// Starts the inner run.
+fn start(name: &str, machine: &Machine) -> Child {
+    Command::new(std::env::current_exe().unwrap())
         .args(["--exact", name, "--nocapture", "--test-threads=1"])
         .envs(machine.environment())
         .env(INNER, "1")
-        .output()
-        .unwrap();
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+/// Waits for the inner run, which must go well, and leave the device without force.
+fn end(child: Child, machine: &Machine) {
+    let output = child.wait_with_output().unwrap();
     let told = String::from_utf8_lossy(&output.stdout);
     told.lines().filter(|line| line.contains("exchanges in")).for_each(|line| println!("{line}"));
     assert!(output.status.success(), "{told}\n{}", String::from_utf8_lossy(&output.stderr));
     // Whatever happened: it ends without force, but where nothing reaches the motors any more.
+    let cut_off = machine.side.deaf.load(Ordering::Acquire);
     let mut falcon = machine.side.falcon.lock().unwrap();
     let unplugged = falcon.trouble().unplugged_ns.is_some();
-    assert!(unplugged || falcon.commanded().0.motors == [0; 3]);
-    false
+    assert!(unplugged || cut_off || falcon.commanded().0.motors == [0; 3]);
+    assert_eq!(machine.side.clients.load(Ordering::Acquire), 0, "it is let go of");
+}
+
+fn options() -> FalconOptions {
+    FalconOptions { firmware: Some(firmware()), ..FalconOptions::new(Geometry::load("libnifalcon").unwrap()) }
 }
 
 fn falcon() -> Falcon {
-    let options = FalconOptions {
-        firmware: Some(firmware()),
-        ..FalconOptions::new(Geometry::load("libnifalcon").unwrap())
-    };
-    Falcon::new(open(None).unwrap(), options).unwrap()
+    Falcon::new(open(None).unwrap(), options()).unwrap()
 }
 
 fn ready() -> Falcon {
@@ -120,6 +145,130 @@ fn silence_is_lost() {
         let mut falcon = ready();
         let gone = (0..10_000).find_map(|_| tick(&mut falcon).err());
         assert_eq!(gone, Some(FalconError::Lost { cause: LinkError::TimedOut }.into()));
+    }
+}
+
+/// Refused commands are sent again, and packets of anything are passed over.
+#[test]
+fn refused_commands_and_noise_are_got_over() {
+    let spoil = |machine: &Machine| {
+        machine.side.refuses_every.store(37, Ordering::Release);
+        machine.side.noise_every.store(23, Ordering::Release);
+    };
+    if inner("refused_commands_and_noise_are_got_over", Trouble::default(), true, spoil) {
+        let mut falcon = ready();
+        for _ in 0..2_000 {
+            tick(&mut falcon).unwrap();
+        }
+        let stats = falcon.stats();
+        assert!(stats.resent > 50 && stats.dropped_bytes > 500 && stats.line_errors > 10, "{stats:?}");
+    }
+}
+
+#[test]
+fn a_device_that_only_makes_noise_is_lost() {
+    if inner("a_device_that_only_makes_noise_is_lost", Trouble::default(), true, |machine| {
+        let side = Arc::clone(&machine.side);
+        std::thread::spawn(move || {
+            wait(&side, |falcon| falcon.commanded().0.motors != [0; 3]);
+            side.noise_every.store(1, Ordering::Release);
+        });
+    }) {
+        let mut falcon = ready();
+        let gone = (0..100_000).find_map(|_| tick(&mut falcon).err());
+        assert_eq!(gone, Some(FalconError::Lost { cause: LinkError::TimedOut }.into()));
+        assert_eq!(falcon.read(0.0), Err(FalconError::NotReady.into()));
+    }
+}
+
+/// Nothing that is sent to it is taken any more: transfers never end by themselves.
+#[test]
+fn a_device_that_hangs_is_lost() {
+    if inner("a_device_that_hangs_is_lost", Trouble::default(), true, |machine| {
+        let side = Arc::clone(&machine.side);
+        std::thread::spawn(move || {
+            wait(&side, |falcon| falcon.commanded().0.motors != [0; 3]);
+            side.deaf.store(true, Ordering::Release);
+        });
+    }) {
+        let mut falcon = ready();
+        let gone = (0..100_000).find_map(|_| tick(&mut falcon).err());
+        assert_eq!(gone, Some(FalconError::Lost { cause: LinkError::TimedOut }.into()));
+        assert_eq!(falcon.read(0.0), Err(FalconError::NotReady.into()));
+        drop(falcon);
+        // It hangs still: vendor requests do not end either.
+        let gone = self::falcon().start(&mut |_| {});
+        assert_eq!(gone, Err(FalconError::Lost { cause: LinkError::TimedOut }));
+    }
+}
+
+/// Waits until the device is in a state.
+fn wait(side: &Side, reached: impl Fn(&EmulatedFalcon) -> bool) {
+    while !reached(&side.falcon.lock().unwrap()) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+/// Pulled while its firmware is loaded, while it is homed and while it gives force, and plugged in again each time, where it begins
+/// without firmware and unhomed.
+#[test]
+fn it_may_be_unplugged_at_any_stage_and_plugged_in_again() {
+    let name = "it_may_be_unplugged_at_any_stage_and_plugged_in_again";
+    if std::env::var_os(INNER).is_some() {
+        return goes_on_after_every_loss();
+    }
+    if !has_umockdev() {
+        return;
+    }
+    let stages: [fn(&EmulatedFalcon) -> bool; 3] = [
+        |falcon| falcon.loaded_bytes() > 300 || falcon.firmware_runs(),
+        |falcon| falcon.firmware_runs() && falcon.commanded().0.homing,
+        |falcon| falcon.commanded().0.motors != [0; 3],
+    ];
+    let mut machine = Machine::new(name, emulated(Trouble::default(), false)).unwrap();
+    let mut run = start(name, &machine);
+    for stage in stages {
+        let mut until = |reached: &dyn Fn(&Side) -> bool| {
+            while !reached(&machine.side) && run.try_wait().unwrap().is_none() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+        };
+        until(&|side| stage(&side.falcon.lock().unwrap()));
+        machine.unplug().unwrap();
+        until(&|side| side.clients.load(Ordering::Acquire) == 0);
+        machine.plug(emulated(Trouble::default(), false)).unwrap();
+    }
+    end(run, &machine);
+    assert!(machine.side.falcon.lock().unwrap().firmware_runs());
+}
+
+fn goes_on_after_every_loss() {
+    let mut losses = 0;
+    while losses < 3 {
+        let Ok(transport) = open(None) else {
+            std::thread::sleep(Duration::from_millis(5));
+            continue;
+        };
+        let mut falcon = Falcon::new(transport, options()).unwrap();
+        let begun = falcon.prepare(&mut |_| ControlFlow::Continue(()));
+        let lost = begun.err().or_else(|| (0..100_000).find_map(|_| tick(&mut falcon).err()));
+        assert_eq!(falcon.read(0.0), Err(FalconError::NotReady.into()));
+        match lost {
+            Some(DeviceError::Falcon(FalconError::Lost { cause: LinkError::Unplugged })) => losses += 1,
+            // A machine that is too busy to play the device.
+            Some(DeviceError::Falcon(FalconError::Lost { cause: LinkError::TimedOut })) => {}
+            other => panic!("{other:?}"),
+        }
+    }
+    let mut falcon = loop {
+        match open(None) {
+            Ok(transport) => break Falcon::new(transport, options()).unwrap(),
+            Err(_) => std::thread::sleep(Duration::from_millis(5)),
+        }
+    };
+    falcon.prepare(&mut |_| ControlFlow::Continue(())).unwrap();
+    for _ in 0..500 {
+        tick(&mut falcon).unwrap();
     }
 }
 

@@ -31,6 +31,10 @@ const TELL_NS: u64 = 100 * MS;
 const STILL_NS: u64 = 30_000 * MS;
 /// An arm that moves by more counts than this does not stand still.
 const STILL_COUNTS: u16 = 8;
+/// Arms turn no faster than this, counts a second: some 60 rad/s, 4 m/s at the grip;
+const FASTEST_COUNTS_PER_S: f64 = 100_000.0;
+/// and so many counts more are believed from one reply to the next.
+const JUMP_COUNTS: f64 = 16.0;
 /// A button counts once so many replies in a row say the same.
 const SAME_REPLIES: u8 = 3;
 /// Commands without force at the end.
@@ -78,7 +82,7 @@ pub struct FalconStats {
     pub replies: u64,
     /// Commands that had to be sent again.
     pub resent: u64,
-    /// Replies whose counts no pose has.
+    /// Replies whose counts no pose has, or that are too far from the last ones.
     pub unsound: u64,
     /// Bytes that belonged to no reply.
     pub dropped_bytes: u64,
@@ -115,6 +119,8 @@ pub struct Falcon {
     /// When the oldest command without a reply was sent, ns.
     asked_ns: Option<u64>,
     sent_ns: u64,
+    /// When the newest encoder counts that were believed were asked for, ns, and what they are.
+    believed: (u64, [i16; 3]),
     /// Share of the force that is given, 0 to 1.
     gain: f64,
     place: DVec3,
@@ -148,6 +154,7 @@ impl Falcon {
             command: Command::default(),
             asked_ns: None,
             sent_ns: 0,
+            believed: (0, [0; 3]),
             gain: 1.0,
             place: FalconOptions::MIDDLE,
             buttons: Buttons::default(),
@@ -213,6 +220,7 @@ impl Falcon {
             }
         }
         self.velocity.reset();
+        self.believed = (self.sent_ns, self.stats.encoders);
         self.command.homing = self.options.keep_homing;
         self.command.leds = Leds::BLUE;
         self.state = State::Ready;
@@ -231,6 +239,7 @@ impl Falcon {
                 if resent {
                     reply = self.last_of_both(reply)?;
                 }
+                self.rest_after(self.silent_ns());
                 self.asked_ns = None;
                 self.stats.replies += 1;
                 self.stats.encoders = reply.encoders;
@@ -248,16 +257,25 @@ impl Falcon {
     }
 
     fn send_again(&mut self) -> Result<(), FalconError> {
-        let silent_ns = self.exchange.line.now_ns() - self.asked_ns.unwrap_or(self.sent_ns);
-        if silent_ns >= LOST_NS {
+        if self.silent_ns() >= LOST_NS {
             return Err(LinkError::TimedOut.into());
         }
+        self.rest_after(self.silent_ns());
+        self.stats.resent += 1;
+        self.send()
+    }
+
+    /// How long the oldest command is without a reply, ns.
+    fn silent_ns(&self) -> u64 {
+        self.exchange.line.now_ns() - self.asked_ns.unwrap_or(self.sent_ns)
+    }
+
+    /// After a silence of this length there is no force, which then has to come up anew.
+    fn rest_after(&mut self, silent_ns: u64) {
         if silent_ns >= ZERO_NS {
             self.command.motors = [0; 3];
             self.gain = 0.0;
         }
-        self.stats.resent += 1;
-        self.send()
     }
 
     fn send(&mut self) -> Result<(), FalconError> {
@@ -276,6 +294,19 @@ impl Falcon {
         found.is_ok()
     }
 
+    /// Whether the arms can have come to where a reply says from where they were, in the time between: a spoilt digit looks like a
+    /// jump, which nobody may feel. The longer ago that was the more is believed.
+    fn follows(&mut self, reply: &Reply) -> bool {
+        let (last_ns, last) = self.believed;
+        let most = JUMP_COUNTS + (self.sent_ns - last_ns) as f64 * 1e-9 * FASTEST_COUNTS_PER_S;
+        let follows = last.into_iter().zip(reply.encoders).all(|(a, b)| f64::from(a.abs_diff(b)) <= most);
+        self.stats.unsound += u64::from(!follows);
+        if follows {
+            self.believed = (self.sent_ns, reply.encoders);
+        }
+        follows
+    }
+
     /// The next reply with a pose.
     fn locate_next(&mut self) -> Result<Reply, FalconError> {
         let begin = self.exchange.line.now_ns();
@@ -285,14 +316,11 @@ impl Falcon {
             if self.command.homing && reply.homed != Reply::HOMED {
                 return Err(FalconError::Unhomed);
             }
-            if self.locate(&reply) {
+            if self.follows(&reply) && self.locate(&reply) {
                 return Ok(reply);
             }
             // Counts without a pose are as good as no reply.
-            if now >= begin + ZERO_NS {
-                self.command.motors = [0; 3];
-                self.gain = 0.0;
-            }
+            self.rest_after(now - begin);
             if now >= begin + LOST_NS {
                 return Err(LinkError::Other("its encoders show what no pose has").into());
             }

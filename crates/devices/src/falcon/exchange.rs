@@ -3,6 +3,10 @@
 use crate::falcon::serial::SerialLine;
 use crate::falcon::{ByteStream, Command, LinkError, Reply};
 
+/// No more packets than this have come already when a deadline is over: the transport holds fewer. What comes after them is noise
+/// that does not end.
+const WAITING_PACKETS: u32 = 8;
+
 /// The line to a firmware that runs. It answers each command, and says nothing by itself.
 pub struct Exchange {
     pub line: SerialLine,
@@ -24,19 +28,22 @@ impl Exchange {
         self.line.write(&command.encode())
     }
 
-    /// The newest reply that has come; where none has, the next that comes until `deadline_ns`.
+    /// The newest reply that has come, however long ago; where none has, the next that comes until `deadline_ns`.
     pub fn reply(&mut self, deadline_ns: u64) -> Result<Option<Reply>, LinkError> {
-        loop {
-            let mut newest = None;
-            while let Some(reply) = self.stream.next(Reply::decode) {
-                newest = Some(reply);
-            }
-            if newest.is_some() || self.line.now_ns() >= deadline_ns {
-                return Ok(newest);
-            }
+        let mut late = 0;
+        while late <= WAITING_PACKETS {
             let bytes = self.line.read(deadline_ns)?;
+            if bytes.is_empty() {
+                break;
+            }
             self.stream.push(bytes);
+            let replies = std::iter::from_fn(|| self.stream.next(Reply::decode));
+            if let Some(newest) = replies.last() {
+                return Ok(Some(newest));
+            }
+            late += u32::from(self.line.now_ns() >= deadline_ns);
         }
+        Ok(None)
     }
 
     /// Lets everything pass that comes within `for_ns`.

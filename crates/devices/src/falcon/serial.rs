@@ -3,7 +3,6 @@
 //! Requests and bits as in Linux, `drivers/usb/serial/ftdi_sio.h`.
 
 use crate::falcon::transport::{LinkError, Transport, USB_PACKET_BYTES};
-use std::ops::Range;
 
 /// A request's number.
 pub mod request {
@@ -107,24 +106,19 @@ impl SerialLine {
         self.transport.write(bytes)
     }
 
-    /// The next bytes, one to 62; none if none come until `deadline_ns`. Packets that carry only their status, as the
-    /// chip sends one each latency period, are passed over.
+    /// The next bytes, one to 62; none if none come until `deadline_ns`. What has come already is found even later than that.
+    /// Packets that carry only their status, as the chip sends one each latency period, are passed over.
     pub fn read(&mut self, deadline_ns: u64) -> Result<&[u8], LinkError> {
         loop {
-            let payload = self.read_packet(deadline_ns)?;
-            if !payload.is_empty() || self.now_ns() >= deadline_ns {
-                return Ok(&self.packet[payload]);
+            let len = self.transport.read(&mut self.packet, deadline_ns)?.min(USB_PACKET_BYTES);
+            self.errors += u64::from(len >= 2 && self.packet[1] & LINE_ERRORS != 0);
+            if len > 2 {
+                return Ok(&self.packet[2..len]);
+            }
+            if len == 0 && self.now_ns() >= deadline_ns {
+                return Ok(&[]);
             }
         }
-    }
-
-    fn read_packet(&mut self, deadline_ns: u64) -> Result<Range<usize>, LinkError> {
-        let len = self.transport.read(&mut self.packet, deadline_ns)?.min(USB_PACKET_BYTES);
-        if len < 2 {
-            return Ok(0..0);
-        }
-        self.errors += u64::from(self.packet[1] & LINE_ERRORS != 0);
-        Ok(2..len)
     }
 
     /// Lets go of the device and takes it anew.

@@ -32,6 +32,8 @@ const CONFIGURATION: [u8; 32] = [
 /// A machine with one Falcon.
 pub struct Machine {
     root: PathBuf,
+    /// Address of the Falcon on its bus: another one each time it is plugged in.
+    address: u8,
     pub side: Arc<Side>,
 }
 
@@ -40,10 +42,25 @@ pub struct Side {
     pub falcon: Mutex<EmulatedFalcon>,
     /// Every IN transfer of this number is refused; 0 is never.
     pub stalls_every: AtomicUsize,
+    /// Likewise OUT,
+    pub refuses_every: AtomicUsize,
+    /// and IN transfers that bring anything, of any length.
+    pub noise_every: AtomicUsize,
+    /// Transfers to the device never end, nor do vendor requests.
+    pub deaf: AtomicBool,
+    /// Programs that have the device open.
+    pub clients: AtomicUsize,
     origin: Instant,
     packets: AtomicUsize,
+    written: AtomicUsize,
     gate: Mutex<Gate>,
     gone: AtomicBool,
+}
+
+/// Whether transfer `n` is one of every `every`.
+fn hits(every: &AtomicUsize, n: usize) -> bool {
+    let every = every.load(Ordering::Acquire);
+    every > 0 && n.is_multiple_of(every)
 }
 
 impl Side {
@@ -64,7 +81,7 @@ impl Gate {
         // SAFETY: the name is a C string; a file descriptor that could be opened is owned by the file from here on.
         let fifo = unsafe {
             libc::mkfifo(name.as_ptr(), 0o666);
-            let fd = libc::open(name.as_ptr(), libc::O_RDWR | libc::O_NONBLOCK);
+            let fd = libc::open(name.as_ptr(), libc::O_RDWR | libc::O_NONBLOCK | libc::O_CLOEXEC);
             if fd < 0 {
                 return Err(io::Error::last_os_error());
             }
@@ -89,32 +106,28 @@ impl Machine {
     pub fn new(name: &str, falcon: EmulatedFalcon) -> io::Result<Self> {
         let root = std::env::temp_dir().join(format!("hapflow-{name}-{}", std::process::id()));
         let _ = std::fs::remove_dir_all(&root);
-        describe(&root)?;
-        let node = root.join("dev/bus/usb/001/002");
-        let gate = Mutex::new(Gate::make(&node)?);
-        let side = Arc::new(Side {
-            falcon: Mutex::new(falcon),
-            stalls_every: AtomicUsize::new(0),
-            origin: Instant::now(),
-            packets: AtomicUsize::new(0),
-            gate,
-            gone: AtomicBool::new(false),
-        });
-        let socket = root.join("ioctl/dev/bus/usb/001/002");
-        std::fs::create_dir_all(socket.parent().unwrap_or(&root))?;
-        let listener = UnixListener::bind(socket)?;
-        let theirs = Arc::clone(&side);
-        std::thread::spawn(move || {
-            for stream in listener.incoming().flatten() {
-                let side = Arc::clone(&theirs);
-                std::thread::spawn(move || {
-                    Client { stream, side, pending: VecDeque::new(), ended: VecDeque::new() }.serve()
-                });
-            }
-        });
-        let theirs = Arc::clone(&side);
-        std::thread::spawn(move || watch(&theirs));
-        Ok(Self { root, side })
+        let address = 2;
+        let side = plug(&root, address, falcon)?;
+        Ok(Self { root, address, side })
+    }
+
+    /// Pulls the cable: transfers end, and the device's files go.
+    pub fn unplug(&self) -> io::Result<()> {
+        let now = self.side.now();
+        self.side.falcon.lock().unwrap().trouble().unplugged_ns = Some(now);
+        self.side.gate.lock().unwrap().set(true);
+        std::fs::remove_file(self.root.join(LINK))?;
+        std::fs::remove_dir_all(self.root.join(DEVICES))?;
+        std::fs::remove_file(self.root.join("dev").join(node(self.address)))?;
+        std::fs::remove_file(self.root.join("ioctl/dev").join(node(self.address)))
+    }
+
+    /// Plugs another Falcon in.
+    pub fn plug(&mut self, falcon: EmulatedFalcon) -> io::Result<()> {
+        self.side.gone.store(true, Ordering::Release);
+        self.address += 1;
+        self.side = plug(&self.root, self.address, falcon)?;
+        Ok(())
     }
 
     /// The variables under which a program sees this machine's USB.
@@ -141,21 +154,64 @@ fn watch(side: &Side) {
     }
 }
 
-/// The files of a machine with a Falcon on its first bus.
-fn describe(root: &Path) -> io::Result<()> {
-    let device = root.join("sys/devices/pci0000:00/0000:00:14.0/usb1/1-1");
+/// Where `/sys` has the device, and the bus's link to it.
+const DEVICES: &str = "sys/devices/pci0000:00/0000:00:14.0/usb1/1-1";
+const LINK: &str = "sys/bus/usb/devices/1-1";
+
+fn node(address: u8) -> String {
+    format!("bus/usb/001/{address:03}")
+}
+
+/// Plugs a Falcon in at this address of the first bus.
+fn plug(root: &Path, address: u8, falcon: EmulatedFalcon) -> io::Result<Arc<Side>> {
+    describe(root, address)?;
+    let gate = Mutex::new(Gate::make(&root.join("dev").join(node(address)))?);
+    let side = Arc::new(Side {
+        falcon: Mutex::new(falcon),
+        stalls_every: AtomicUsize::new(0),
+        refuses_every: AtomicUsize::new(0),
+        noise_every: AtomicUsize::new(0),
+        deaf: AtomicBool::new(false),
+        clients: AtomicUsize::new(0),
+        origin: Instant::now(),
+        packets: AtomicUsize::new(0),
+        written: AtomicUsize::new(0),
+        gate,
+        gone: AtomicBool::new(false),
+    });
+    let socket = root.join("ioctl/dev").join(node(address));
+    std::fs::create_dir_all(socket.parent().unwrap_or(root))?;
+    let listener = UnixListener::bind(socket)?;
+    let theirs = Arc::clone(&side);
+    std::thread::spawn(move || {
+        for stream in listener.incoming().flatten() {
+            let side = Arc::clone(&theirs);
+            std::thread::spawn(move || Client::new(stream, side).serve());
+        }
+    });
+    let theirs = Arc::clone(&side);
+    std::thread::spawn(move || watch(&theirs));
+    Ok(side)
+}
+
+/// The files of a Falcon at this address of the first bus.
+fn describe(root: &Path, address: u8) -> io::Result<()> {
+    let device = root.join(DEVICES);
     std::fs::create_dir_all(&device)?;
-    let uevent = "MAJOR=189\nMINOR=1\nDEVNAME=bus/usb/001/002\nDEVTYPE=usb_device\nPRODUCT=403/cb48/600\nBUSNUM=001\nDEVNUM=002\n";
+    let (node, minor) = (node(address), address - 1);
+    let uevent = format!(
+        "MAJOR=189\nMINOR={minor}\nDEVNAME={node}\nDEVTYPE=usb_device\nPRODUCT=403/cb48/600\nBUSNUM=001\nDEVNUM={address:03}\n"
+    );
     for (name, text) in [
         ("busnum", "1\n"),
-        ("devnum", "2\n"),
+        ("devnum", &format!("{address}\n")),
         ("speed", "12\n"),
         ("bConfigurationValue", "1\n"),
         ("bNumConfigurations", "1\n"),
         ("idVendor", "0403\n"),
         ("idProduct", "cb48\n"),
-        ("dev", "189:1\n"),
-        ("uevent", uevent),
+        ("dev", &format!("189:{minor}\n")),
+        ("uevent", &uevent),
     ] {
         std::fs::write(device.join(name), text)?;
     }
@@ -163,9 +219,9 @@ fn describe(root: &Path) -> io::Result<()> {
     for folder in ["sys/bus/usb/devices", "dev/bus/usb/001", "dev/.node"] {
         std::fs::create_dir_all(root.join(folder))?;
     }
-    symlink("../../../devices/pci0000:00/0000:00:14.0/usb1/1-1", root.join("sys/bus/usb/devices/1-1"))?;
+    symlink("../../../devices/pci0000:00/0000:00:14.0/usb1/1-1", root.join(LINK))?;
     symlink("../../../../../bus/usb", device.join("subsystem"))?;
-    symlink("189:1", root.join("dev/.node/bus_usb_001_002"))
+    symlink(format!("189:{minor}"), root.join("dev/.node").join(node.replace('/', "_")))
 }
 
 /// A transfer as the kernel has it.
@@ -181,10 +237,20 @@ struct Urb {
 struct Client {
     stream: UnixStream,
     side: Arc<Side>,
+    /// Whether it has asked for anything: the preload library also connects where a file could not be opened.
+    counted: bool,
     /// IN transfers that wait for a packet.
     pending: VecDeque<Urb>,
+    /// Transfers that never end by themselves.
+    stuck: VecDeque<Urb>,
     /// Transfers that have ended: status and length.
     ended: VecDeque<(Urb, i32, usize)>,
+}
+
+impl Drop for Client {
+    fn drop(&mut self) {
+        self.side.clients.fetch_sub(usize::from(self.counted), Ordering::AcqRel);
+    }
 }
 
 type Answer = io::Result<(i64, i32)>;
@@ -195,8 +261,17 @@ fn refuse(errno: i32) -> (i64, i32) {
 }
 
 impl Client {
+    fn new(stream: UnixStream, side: Arc<Side>) -> Self {
+        let (pending, stuck, ended) = (VecDeque::new(), VecDeque::new(), VecDeque::new());
+        Self { stream, side, counted: false, pending, stuck, ended }
+    }
+
     fn serve(mut self) {
         while let Ok([kind, request, argument]) = self.receive() {
+            if !self.counted {
+                self.counted = true;
+                self.side.clients.fetch_add(1, Ordering::AcqRel);
+            }
             let answer = if kind == 1 { self.ioctl(request as u32, argument) } else { Ok((-100, 0)) };
             let Ok((result, errno)) = answer else { return };
             if self.send([3, result as u64, errno as u64]).is_err() {
@@ -260,7 +335,13 @@ impl Client {
             return Ok(refuse(libc::ENODEV));
         }
         match (raw[0], urb.endpoint & 0x80) {
+            (_, 0) if self.side.deaf.load(Ordering::Acquire) => self.stuck.push_back(urb),
             (2, _) => self.control(urb)?,
+            (_, 0)
+                if hits(&self.side.refuses_every, self.side.written.fetch_add(1, Ordering::AcqRel) + 1) =>
+            {
+                self.end(urb, -libc::EPIPE, 0);
+            }
             (_, 0) => {
                 let bytes = self.fetch(urb.buffer, urb.length)?;
                 let written = self.side.falcon.lock().unwrap().write(&bytes, now);
@@ -297,13 +378,15 @@ impl Client {
     }
 
     fn discard(&mut self, address: u64) -> Answer {
-        let Some(at) = self.pending.iter().position(|urb| urb.address == address) else {
-            return Ok(refuse(libc::EINVAL));
+        let take = |waiting: &mut VecDeque<Urb>| {
+            let at = waiting.iter().position(|urb| urb.address == address)?;
+            waiting.remove(at)
         };
-        if let Some(urb) = self.pending.remove(at) {
+        if let Some(urb) = take(&mut self.pending).or_else(|| take(&mut self.stuck)) {
             self.end(urb, -libc::ENOENT, 0);
+            return Ok(DONE);
         }
-        Ok(DONE)
+        Ok(refuse(libc::EINVAL))
     }
 
     fn reap(&mut self, argument: u64) -> Answer {
@@ -331,17 +414,27 @@ impl Client {
         }
         self.pending.pop_front();
         let (mut status, mut length) = (status(&read), read.ok().flatten().unwrap_or(0));
-        let (nth, every) = (
-            self.side.packets.fetch_add(1, Ordering::AcqRel) + 1,
-            self.side.stalls_every.load(Ordering::Acquire),
-        );
-        if every > 0 && nth % every == 0 {
+        let nth = self.side.packets.fetch_add(1, Ordering::AcqRel) + 1;
+        if hits(&self.side.stalls_every, nth) {
             (status, length) = (-libc::EPIPE, 0);
+        } else if hits(&self.side.noise_every, nth) {
+            (packet, length) = noise(nth);
         }
         self.store(urb.buffer, &packet[..length])?;
         self.end(urb, status, length);
         Ok(())
     }
+}
+
+/// Bytes without a meaning, and how many: from none to a full packet.
+fn noise(seed: usize) -> ([u8; USB_PACKET_BYTES], usize) {
+    let mut state = seed as u64;
+    let mut next = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize
+    };
+    let length = next() % (USB_PACKET_BYTES + 1);
+    (std::array::from_fn(|_| next() as u8), length)
 }
 
 fn status<T>(result: &Result<T, LinkError>) -> i32 {

@@ -50,6 +50,10 @@ impl Board {
         matches!(self.listener, Listener::Firmware(_))
     }
 
+    pub fn loaded_bytes(&self) -> usize {
+        if let Listener::Loader { image } = &self.listener { image.len() } else { 0 }
+    }
+
     /// The host has set DTR: a rising edge resets everything, a falling one lets the DSP boot that the supervisor has woken.
     pub fn dtr(&mut self, chip: &mut Chip, was: bool, now: u64) {
         chip.cts = match (&self.listener, was, chip.dtr) {
@@ -140,6 +144,8 @@ impl Trouble {
             return;
         }
         let now = if hits(self.late_every) { now + self.late_ns } else { now };
+        let mut reply = *reply;
+        reply.encoders[n as usize % 3] ^= if hits(self.misreads_every) { 0x100 } else { 0 };
         let mut bytes = reply.encode().to_vec();
         if hits(self.loses_byte_every) {
             bytes.remove(n as usize % 16);

@@ -28,6 +28,8 @@ pub struct Trouble {
     pub loses_byte_every: u64,
     /// A byte is changed of every reply of this number.
     pub garbles_every: u64,
+    /// A digit is changed of every reply of this number, so that an encoder is 256 counts off.
+    pub misreads_every: u64,
     /// Every reply of this number comes late, by [`late_ns`](Self::late_ns).
     pub late_every: u64,
     /// How late, ns.
@@ -72,6 +74,11 @@ impl EmulatedFalcon {
     /// Whether its firmware runs.
     pub fn firmware_runs(&self) -> bool {
         self.board.firmware_runs()
+    }
+
+    /// Bytes of an image that its loader has taken so far.
+    pub fn loaded_bytes(&self) -> usize {
+        self.board.loaded_bytes()
     }
 
     /// A vendor request without data.

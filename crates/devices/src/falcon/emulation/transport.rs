@@ -64,7 +64,8 @@ impl Transport for EmulatedTransport {
 
     fn reopen(&mut self) -> Result<(), LinkError> {
         self.open = true;
-        Ok(())
+        // Where the cable is out there is nothing to be had.
+        self.modem_status().map(drop)
     }
 
     fn close(&mut self) {

@@ -163,6 +163,14 @@ impl UsbTransport {
         self.handle.as_ref().ok_or(LinkError::Unplugged)
     }
 
+    /// What a transfer came to. After a stall the endpoint goes on once the host has said so: that packet is lost, and nothing else.
+    fn go_on_after(&self, ended: Result<(), LinkError>, endpoint: u8) -> Result<(), LinkError> {
+        match ended {
+            Err(LinkError::Stalled) => self.handle()?.clear_halt(endpoint).map_err(link_error),
+            ended => ended,
+        }
+    }
+
     fn work(&self, timeout: Duration) -> Result<(), LinkError> {
         match handle_events(&self.context, timeout) {
             Ok(()) | Err(rusb::Error::Interrupted) => Ok(()),
@@ -217,7 +225,7 @@ impl Transport for UsbTransport {
         for packet in bytes.chunks(USB_PACKET_BYTES) {
             let next = self.next_out;
             self.wait(CLOSE_TIMEOUT, |this| this.outgoing[next].is_under_way())?;
-            check(&self.outgoing[next])?;
+            self.go_on_after(check(&self.outgoing[next]), ENDPOINT_OUT)?;
             self.outgoing[next].send(packet).map_err(link_error)?;
             self.next_out = (next + 1) % QUEUED_OUT;
         }
@@ -237,12 +245,7 @@ impl Transport for UsbTransport {
         }
         let ended = check(&self.incoming[next]);
         let len = self.incoming[next].take(packet);
-        if ended == Err(LinkError::Stalled) {
-            // The endpoint goes on once the host has said so; the packet is lost, and nothing else.
-            self.handle()?.clear_halt(ENDPOINT_IN).map_err(link_error)?;
-        } else {
-            ended?;
-        }
+        self.go_on_after(ended, ENDPOINT_IN)?;
         self.incoming[next].submit().map_err(link_error)?;
         self.next_in = (next + 1) % QUEUED_IN;
         Ok(if ended.is_ok() { len } else { 0 })
