@@ -8,7 +8,7 @@
 //! A motion is a CSV file with the columns time_s, x_m, y_m, z_m; so is what `hapflow run --record run.csv` wrote.
 
 use hapflow::engine::run::{RunOptions, virtual_clock};
-use hapflow::engine::{Scene, Value, load, settings};
+use hapflow::engine::{Parts, Scene, Value, load, settings};
 use std::error::Error;
 use std::ops::ControlFlow;
 
@@ -28,6 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         threads: 0,
         pictures_at: &[],
         record: None,
+        parts: Parts::default(),
         guide: &mut |_| ControlFlow::Continue(()),
         progress: &mut go_on,
     };

@@ -9,7 +9,7 @@ use c_support::{
     code, made, shown,
 };
 use hapflow::engine::run::{RunOptions, virtual_clock};
-use hapflow::engine::{Value, load, settings};
+use hapflow::engine::{Parts, Value, load, settings};
 use std::ffi::CStr;
 use std::ops::ControlFlow;
 use std::ptr::{null, null_mut};
@@ -55,6 +55,7 @@ fn a_host_drives_the_simulated_hand_as_a_run_in_rust_does() {
     settings::set(&mut scene, "run.duration", &Value::Number(0.8)).unwrap();
     let mut progress = |_: hapflow::engine::run::Progress<'_>| ControlFlow::Continue(());
     let options = RunOptions {
+        parts: Parts::default(),
         threads: 1,
         pictures_at: &[],
         record: None,

@@ -8,8 +8,8 @@ use c_support::{
     Api, Device, JET, PLATE, Random, Report, SECOND, Session, SessionConfig, ToolState, Variant, Wrench,
     code, made,
 };
-use hapflow::engine::parse;
 use hapflow::engine::run::{RunOptions, virtual_clock};
+use hapflow::engine::{Parts, parse};
 use hapflow::haptics::FaultSet;
 use std::ffi::{CStr, CString, c_char};
 use std::ops::ControlFlow;
@@ -595,6 +595,7 @@ fn the_run_is_that_of_the_virtual_clock_to_the_last_bit() {
         let c = api.run(session, 0, 200);
         let mut progress = |_: hapflow::engine::run::Progress<'_>| ControlFlow::Continue(());
         let options = RunOptions {
+            parts: Parts::default(),
             threads: 1,
             pictures_at: &[],
             record: None,

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use hapflow::engine::run::{RunOptions, virtual_clock};
-use hapflow::engine::{Value, load, settings};
+use hapflow::engine::{Parts, Value, load, settings};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -50,6 +50,7 @@ fn run(record: &Path) -> Vec<[f64; 4]> {
     }
     let mut go_on = |_: hapflow::engine::run::Progress<'_>| ControlFlow::Continue(());
     let options = RunOptions {
+        parts: Parts::default(),
         threads: 1,
         pictures_at: &[],
         record: Some(record),

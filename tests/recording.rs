@@ -8,7 +8,7 @@ use glam::DVec3;
 use hapflow::devices::{HapticDevice, NullDevice};
 use hapflow::engine::run::{RunOptions, virtual_clock};
 use hapflow::engine::{
-    Drive, Recorded, Scene, SceneError, Session, SessionOptions, TickWriter, Value, open_device, parse,
+    Drive, Parts, Recorded, Scene, SceneError, Session, SessionOptions, TickWriter, Value, open_device, parse,
 };
 use hapflow::haptics::ToolState;
 use std::ops::ControlFlow;
@@ -193,6 +193,7 @@ fn a_run_whose_file_is_full_ends_with_the_reason() {
     let mut progress = |_: hapflow::engine::run::Progress<'_>| ControlFlow::Continue(());
     let record = Some(Path::new("/dev/full"));
     let options = RunOptions {
+        parts: Parts::default(),
         threads: 1,
         pictures_at: &[],
         record,
@@ -208,6 +209,7 @@ fn a_whole_run_is_written_as_it_goes_and_as_at_its_end() {
     let (streamed, whole) = (file("streamed.csv"), file("whole.csv"));
     let mut progress = |_: hapflow::engine::run::Progress<'_>| ControlFlow::Continue(());
     let options = RunOptions {
+        parts: Parts::default(),
         threads: 1,
         pictures_at: &[],
         record: Some(&streamed),

@@ -4,7 +4,7 @@
 use glam::DVec3;
 use hapflow::devices::Segment;
 use hapflow::engine::run::{Outcome, Progress, RunOptions, virtual_clock};
-use hapflow::engine::{Scene, SceneError, Value, load, settings};
+use hapflow::engine::{Parts, Scene, SceneError, Value, load, settings};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
@@ -45,8 +45,14 @@ fn run(scene: &Scene, go_on: impl Fn(&str) -> bool) -> (Vec<String>, Result<Outc
         if go_on(text) { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     };
     let mut progress = |_: Progress<'_>| ControlFlow::Continue(());
-    let options =
-        RunOptions { threads: 1, pictures_at: &[], record: None, guide: &mut guide, progress: &mut progress };
+    let options = RunOptions {
+        parts: Parts::default(),
+        threads: 1,
+        pictures_at: &[],
+        record: None,
+        guide: &mut guide,
+        progress: &mut progress,
+    };
     let outcome = virtual_clock(scene, options);
     (told, outcome)
 }

@@ -5,7 +5,7 @@ mod common;
 
 use common::{jet, word};
 use hapflow::engine::run::{Outcome, RunOptions, virtual_clock};
-use hapflow::engine::{Scene, Value, load, settings};
+use hapflow::engine::{Parts, Scene, Value, load, settings};
 use std::ops::ControlFlow;
 
 fn run(scene: &Scene, threads: usize) -> Outcome {
@@ -13,6 +13,7 @@ fn run(scene: &Scene, threads: usize) -> Outcome {
     virtual_clock(
         scene,
         RunOptions {
+            parts: Parts::default(),
             threads,
             pictures_at: &[0.25],
             record: None,

@@ -19,7 +19,9 @@ HAPFLOW_API const void* hapflow_extension(const char* name);
 /* Devices in a loop of the host, or opened by it for a session; without it hapflow_session_config.device_count is 0. */
 #define HAPFLOW_EXTENSION_DEVICE "hapflow.device/1"
 
-/* Functions of device.h, by their last words. */
+/* Functions of device.h, by their last words. A plugin with this table brings a device of its own: fluid_backend.h says what
+ * a plugin is. config_init and open [main] get a configuration without a name; one device is open at a time. read and
+ * write [servo] need no gate: hapflow's comes before, and what is read is checked. clear_faults is not called. */
 typedef struct hapflow_device_extension {
     uint32_t size; /* bytes of this table */
     uint32_t reserved; /* 0 */

@@ -22,7 +22,8 @@
  * Each noun has a header of its own, and may be included by itself; base.h has what holds for all of them: thread
  * classes, results, pointers, structs.
  *
- * What is optional is asked for by name and revision, as "hapflow.device/1": extension.h.
+ * What is optional is asked for by name and revision, as "hapflow.device/1": extension.h. What a plugin of hapflow has to
+ * bring is in fluid_backend.h and coupling.h.
  */
 #ifndef HAPFLOW_HAPFLOW_H
 #define HAPFLOW_HAPFLOW_H
@@ -44,6 +45,8 @@
 #include <hapflow/report.h>
 #include <hapflow/log.h>
 #include <hapflow/extension.h>
+#include <hapflow/fluid_backend.h>
+#include <hapflow/coupling.h>
 #include <hapflow/contact.h>
 #include <hapflow/recording.h>
 

@@ -79,6 +79,10 @@ pub struct RunArgs {
     /// Replay a recorded motion instead of the scene's device: a CSV file (time_s,x_m,y_m,z_m) or a shipped name.
     #[arg(long, value_name = "FILE|NAME")]
     pub motion: Option<String>,
+    /// Take the fluid, device or coupling that a plugin brings in place of the scene's; may be repeated. A file, or the NAME
+    /// of a libNAME.so in a folder of HAPFLOW_PLUGIN_PATH. It runs in this process. A plugin's device runs in real time.
+    #[arg(long, value_name = "FILE|NAME")]
+    pub plugin: Vec<String>,
     /// How tool and fluid meet: local, direct, momentum (the thesis's).
     #[arg(long, value_name = "NAME")]
     pub coupling: Option<String>,

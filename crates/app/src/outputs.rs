@@ -4,7 +4,7 @@ use crate::draw::chart::{self, Chart, Series};
 use crate::draw::error::DrawError;
 use crate::draw::scene::{Box3, Nozzle, Scene3d, Tool};
 use crate::draw::{frame, image};
-use crate::summary::Summary;
+use crate::summary::{Summary, in_use};
 use glam::DVec3;
 use hapflow_engine::run::{Outcome, Picture};
 use hapflow_engine::{Row, Scene, SceneError, settings};
@@ -161,7 +161,7 @@ fn force_charts(scene: &Scene, rows: &[Row]) -> Vec<Chart> {
         title: format!(
             "{}: force on the hand ({}, {})",
             scene.name,
-            scene.run.coupling.name(),
+            in_use(scene, "coupling"),
             scene.filter()
         ),
         y_label: "force (N)".into(),

@@ -5,12 +5,13 @@ use crate::draw::error::DrawError;
 use crate::falcon::TableError;
 use crate::meter::Meter;
 use crate::outputs::{self, OutputError};
+use crate::plugin::Plugins;
 use crate::stop::Stop;
 use crate::summary::Summary;
 use hapflow_devices::DeviceError;
 use hapflow_devices::falcon::{CalibrationError, FalconError, GeometryError};
 use hapflow_engine::run::{Outcome, Progress, RunOptions, real_time, virtual_clock};
-use hapflow_engine::{Scene, SceneError, Value, load, settings};
+use hapflow_engine::{Parts, Scene, SceneError, Value, load, settings};
 use hapflow_validation::ValidationError;
 use std::cell::RefCell;
 use std::io::Write;
@@ -31,6 +32,9 @@ pub enum Failure {
     /// A word of another command with a value that cannot be used.
     #[error("{0}")]
     Word(String),
+    /// A plugin that failed while it ran.
+    #[error("plugin: {0}")]
+    Plugin(String),
     /// A parameter set of a Falcon that cannot be used.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
@@ -70,7 +74,7 @@ impl Failure {
     /// The program's exit code.
     pub fn code(&self) -> u8 {
         match self {
-            Self::Output(_) | Self::Picture(_) | Self::Write(..) => 1,
+            Self::Output(_) | Self::Picture(_) | Self::Write(..) | Self::Plugin(_) => 1,
             Self::Device(error) | Self::Scene(SceneError::Device(error)) => device_code(error),
             _ => 2,
         }
@@ -88,15 +92,21 @@ fn device_code(error: &DeviceError) -> u8 {
 
 /// Runs a scene and writes what came of it.
 pub fn run(args: &RunArgs) -> Result<(), Failure> {
-    let scene = scene(args)?;
-    let realtime = args.realtime || scene.device_info().hardware;
+    let (mut scene, plugins) = (scene(args)?, Plugins::load(&args.plugin)?);
+    plugins.parts.choose(&mut scene)?;
+    scene.check()?;
+    let realtime = args.realtime || scene.in_a_hand();
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(file_stem(&scene)));
     make_folder(&folder)?;
-    let outcome = step(args, &scene, realtime)?;
+    let outcome = step(args, &scene, plugins.parts.clone(), realtime)?;
     let summary = Summary::new(&scene, &outcome);
     outputs::write(&folder, &scene, &outcome, &summary)?;
     tell(args, &scene, &outcome, &summary, &folder);
-    outcome.lost.map_or(Ok(()), |lost| Err(Failure::Device(lost)))
+    match (outcome.lost, plugins.failure()) {
+        (Some(lost), _) => Err(Failure::Device(lost)),
+        (None, Some(reason)) => Err(Failure::Plugin(reason)),
+        (None, None) => Ok(()),
+    }
 }
 
 /// The device that `--device` means, and says which where it was left open.
@@ -166,7 +176,7 @@ fn make_folder(folder: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-fn step(args: &RunArgs, scene: &Scene, realtime: bool) -> Result<Outcome, Failure> {
+fn step(args: &RunArgs, scene: &Scene, parts: Parts, realtime: bool) -> Result<Outcome, Failure> {
     let pictures_at: Vec<f64> =
         (1..=PICTURES).map(|k| scene.run.duration * (k as f64 - 0.35) / PICTURES as f64).collect();
     let meter = RefCell::new(Meter::new(args.json, realtime, scene.gate.max_force_n));
@@ -182,8 +192,14 @@ fn step(args: &RunArgs, scene: &Scene, realtime: bool) -> Result<Outcome, Failur
     let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = if args.threads == 0 && !realtime { all } else { args.threads };
     let record = args.record.as_deref();
-    let options =
-        RunOptions { threads, pictures_at: &pictures_at, record, guide: &mut guide, progress: &mut progress };
+    let options = RunOptions {
+        threads,
+        pictures_at: &pictures_at,
+        record,
+        parts,
+        guide: &mut guide,
+        progress: &mut progress,
+    };
     let outcome = if realtime { real_time(scene, options) } else { virtual_clock(scene, options) };
     meter.borrow().clear();
     Ok(outcome?)

@@ -29,7 +29,8 @@ impl Summary {
         let max_force = sent.iter().map(|f| f.length()).fold(0.0, f64::max);
         let json = json!({
             "scene": scene.name,
-            "coupling": scene.run.coupling.name(),
+            "backend": in_use(scene, "backend"),
+            "coupling": in_use(scene, "coupling"),
             "filter": scene.filter().to_string(),
             "solver": hapflow_engine::settings::get(scene, "fluid.solver").ok().map(|v| text(&v)),
             "fluid_hz": scene.run.fluid_hz,
@@ -84,6 +85,15 @@ impl Summary {
         ]
         .concat()
     }
+}
+
+/// The `part` in use, `backend`, `coupling` or `device`: of a plugin, or the scene's own.
+pub fn in_use(scene: &Scene, part: &str) -> String {
+    let named = |room: &str| {
+        hapflow_engine::settings::get(scene, &format!("{room}.{part}")).map_or(String::new(), |v| text(&v))
+    };
+    let plugins = named("plugin");
+    if plugins.is_empty() { named("run") } else { plugins }
 }
 
 fn text(value: &hapflow_engine::Value) -> String {

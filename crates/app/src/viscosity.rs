@@ -29,7 +29,8 @@ pub fn json(scene: &Scene) -> Value {
 /// The most that the solver adds (Pa·s) at the wavelength (m) that it resolves well.
 fn added(scene: &Scene) -> Option<[f64; 2]> {
     let config = scene.fluid_config(1);
-    let viscous = scene.run.backend == BackendKind::Cpu && config.settings.mode != InteractionMode::None;
+    let particles = scene.run.backend == BackendKind::Cpu && scene.plugin.backend.is_empty();
+    let viscous = particles && config.settings.mode != InteractionMode::None;
     let wavelength = config.resolved_wavelength();
     viscous.then(|| [config.added_viscosity(wavelength), wavelength])
 }

@@ -93,10 +93,14 @@ impl FluidUnit {
             }
         };
         let now = self.bodies.buffer();
+        let mut sound = true;
         for (to, (state, load)) in now.iter_mut().zip(output.bodies.iter().zip(&output.loads)) {
-            *to = BodyReport { state: *state, load: *load };
+            let finite = load.force().is_finite() && load.torque.is_finite();
+            sound &= finite;
+            *to = BodyReport { state: *state, load: if finite { *load } else { BodyLoad::default() } };
         }
-        self.newest = report(&self.newest, output);
+        self.newest = report(&self.newest, output, now.first());
+        self.flags.raise(FaultSet::FLUID_FAULT.when(!sound).bits());
         self.answer(frame);
         self.bodies.publish();
         self.report.write(self.newest);
@@ -154,8 +158,8 @@ fn neighbourhood<'a>(around: &'a Surroundings, fluid: &FluidSettings) -> Neighbo
     }
 }
 
-fn report(last: &FluidReport, output: &FrameOutput) -> FluidReport {
-    let load = output.loads.first().copied().unwrap_or_default();
+fn report(last: &FluidReport, output: &FrameOutput, tool: Option<&BodyReport>) -> FluidReport {
+    let load = tool.map_or(BodyLoad::default(), |tool| tool.load);
     FluidReport {
         frame: last.frame + 1,
         time_s: output.time,

@@ -22,6 +22,7 @@ mod form;
 mod mesh_file;
 mod obstacles;
 mod pace;
+mod parts;
 mod recorder;
 mod recording;
 pub mod run;
@@ -47,11 +48,12 @@ pub use fluid_unit::{BodyReport, FluidReport, FluidUnit};
 pub use form::{Form, FormKind};
 pub use obstacles::ObstacleMover;
 pub use pace::VirtualPace;
+pub use parts::{BackendMaker, CouplingMaker, DeviceMaker, Parts};
 pub use recorder::Recorded;
 pub use recording::{Recording, Row, TickWriter};
 pub use scene::{
     BackendKind, Change, DeviceKind, FalconSettings, FreeBody, MAX_BODIES, MAX_OBSTACLES, MAX_TOOLS,
-    MappingSettings, MotionOrigin, Obstacle, RunSettings, Scene, ToolSettings,
+    MappingSettings, MotionOrigin, Obstacle, PluginSettings, RunSettings, Scene, ToolSettings,
 };
 pub use scene_device::{open_device, open_device_on};
 pub use scene_file::{parse, write};

@@ -1,7 +1,7 @@
 //! Whole runs: a scene, its device, and every tick recorded.
 
 use crate::{
-    BodyReport, Drive, FluidPace, FluidReport, Recording, Scene, SceneError, ServoReport, Session,
+    BodyReport, Drive, FluidPace, FluidReport, Parts, Recording, Scene, SceneError, ServoReport, Session,
     SessionOptions, TickTimes, TickWriter, VirtualPace, open_device_on,
 };
 use hapflow_devices::{DeviceError, Pacing};
@@ -39,6 +39,8 @@ pub struct RunOptions<'a> {
     pub pictures_at: &'a [f64],
     /// A file to which every tick is written as it comes: see [`TickWriter`].
     pub record: Option<&'a Path>,
+    /// What plugins bring, of which the scene takes what it names.
+    pub parts: Parts,
     /// Called with what a person has to do before the device is ready; `Break` gives it up.
     pub guide: &'a mut dyn FnMut(&str) -> ControlFlow<()>,
     /// Called now and then; `Break` ends the run early.
@@ -106,10 +108,11 @@ const TELL_EVERY: u64 = 20;
 /// # Errors
 /// What [`Session::open`] refuses, a device that is real, or is not there, or a recording that cannot be written.
 pub fn virtual_clock(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, SceneError> {
-    if scene.device_info().hardware {
+    if scene.in_a_hand() {
         return Err(SceneError::Refused("a device in a hand runs in real time only".into()));
     }
-    let session_options = SessionOptions { threads: options.threads, ..SessionOptions::hosted() };
+    let session_options =
+        SessionOptions { threads: options.threads, parts: options.parts, ..SessionOptions::hosted() };
     let clock: Arc<dyn Clock> = Arc::new(VirtualClock::new());
     let mut device = open_device_on(scene, &clock)?;
     device.prepare(options.guide)?;
@@ -182,7 +185,7 @@ impl RunTime {
 /// What [`Session::open`] refuses, or a recording that cannot be written.
 pub fn real_time(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, SceneError> {
     let clock: Arc<dyn Clock> = Arc::new(RealClock::new());
-    let mut device = open_device_on(scene, &clock)?;
+    let mut device = options.parts.open_device(scene, &clock)?;
     device.prepare(options.guide)?;
     // A page that is fetched from disc in a tick makes it late.
     let memory = Grant::from(lock_memory());
@@ -193,6 +196,7 @@ pub fn real_time(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, Scen
         devices: vec![device],
         clock,
         tape: 8192,
+        parts: options.parts,
     };
     let mut session = Session::open(scene, session_options)?;
     let Some(mut tape) = session.take_tape(0) else {

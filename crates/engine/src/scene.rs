@@ -86,6 +86,17 @@ pub struct RunSettings {
     pub motion_origin: MotionOrigin,
 }
 
+/// What a scene takes of plugins, by name, in place of what [`RunSettings`] has; none where the name is empty.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PluginSettings {
+    /// Who computes the fluid.
+    pub backend: String,
+    /// How the tool meets it.
+    pub coupling: String,
+    /// Which device moves the tool.
+    pub device: String,
+}
+
 /// Most tools in a scene.
 pub const MAX_TOOLS: usize = 8;
 
@@ -215,6 +226,8 @@ pub struct Scene {
     pub about: String,
     /// How it is run.
     pub run: RunSettings,
+    /// What plugins bring.
+    pub plugin: PluginSettings,
     /// Settings of the fluid.
     pub fluid: FluidSettings,
     /// Particles that leave it vanish.
@@ -271,6 +284,7 @@ impl Default for Scene {
                 motion: "tremor".into(),
                 motion_origin: MotionOrigin::Tool,
             },
+            plugin: PluginSettings::default(),
             fluid: FluidSettings::default(),
             bounds: Aabb { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) },
             periodic: [false; 3],
@@ -330,11 +344,16 @@ impl Scene {
         }
     }
 
+    /// The coupling as all but itself know it: of a plugin comes a wrench wherever the hand is, as of `direct`.
+    pub(crate) fn coupling(&self) -> CouplingKind {
+        if self.plugin.coupling.is_empty() { self.run.coupling } else { CouplingKind::Direct }
+    }
+
     /// The filter in use: the scene's, or the coupling's own. The thesis's baseline has its eleven fluid
     /// frames; `direct` smooths each frame's step over one frame, which cancels the frame rate.
     pub fn filter(&self) -> FilterSpec {
         use hapflow_haptics::{TapPlace, WindowKind};
-        self.run.filter.unwrap_or(match self.run.coupling {
+        self.run.filter.unwrap_or(match self.coupling() {
             CouplingKind::Momentum => {
                 FilterSpec::Window { kind: WindowKind::BartlettHann, taps: 11, place: TapPlace::Fluid }
             }
@@ -347,8 +366,12 @@ impl Scene {
         })
     }
 
-    /// The mapping in use.
-    /// What is known of the device that it asks for.
+    /// Whether a person may hold its device, which then runs in real time only.
+    pub fn in_a_hand(&self) -> bool {
+        self.device_info().hardware || !self.plugin.device.is_empty()
+    }
+
+    /// What is known of the device that `run.device` asks for.
     pub fn device_info(&self) -> DeviceInfo {
         match self.run.device {
             DeviceKind::Hand => hapflow_devices::HAND,
@@ -362,6 +385,7 @@ impl Scene {
         }
     }
 
+    /// The mapping in use.
     pub(crate) fn mapping(&self) -> Result<Mapping, SceneError> {
         let m = &self.mapping;
         let refused = |e: &dyn std::fmt::Display| SceneError::Refused(format!("mapping: {e}"));
@@ -369,7 +393,7 @@ impl Scene {
         let mapping = Mapping::new(m.scale, axes, m.offset).map_err(|e| refused(&e))?;
         let workspace = match self.run.device {
             _ if m.rim_radius > 0.0 => Workspace::Sphere { centre: DVec3::ZERO, radius: m.rim_radius },
-            DeviceKind::Falcon | DeviceKind::EmulatedFalcon => {
+            DeviceKind::Falcon | DeviceKind::EmulatedFalcon if self.plugin.device.is_empty() => {
                 let start = mapping.device_state(ToolState::at(self.tool.position)).position;
                 Workspace::Discs { centre: start - FalconOptions::MIDDLE, discs: &FREE_DISCS }
             }
@@ -451,7 +475,7 @@ impl Scene {
         let least =
             |tool: &ToolSettings| MIN_MASS_RATIO * self.fluid.rest_density * tool.form.shape().volume();
         let light = self.tools().find(|tool| tool.mass < least(tool));
-        match light.filter(|_| self.run.coupling == CouplingKind::Momentum) {
+        match light.filter(|_| self.coupling() == CouplingKind::Momentum) {
             None => Ok(()),
             Some(tool) => Err(SceneError::BadValue {
                 path: "tool.mass".into(),

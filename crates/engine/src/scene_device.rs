@@ -1,7 +1,7 @@
 //! The device that a scene asks for.
 
-use crate::SceneError;
 use crate::scene::{DeviceKind, FalconSettings, MotionOrigin, Scene};
+use crate::{Parts, SceneError};
 use glam::DVec3;
 use hapflow_devices::falcon::{
     self, EmulatedFalcon, EmulatedHand, EmulatedTransport, Falcon, FalconError, FalconOptions, Firmware,
@@ -33,6 +33,11 @@ pub fn open_device(scene: &Scene) -> Result<Box<dyn HapticDevice>, SceneError> {
 /// # Errors
 /// As [`open_device`].
 pub fn open_device_on(scene: &Scene, clock: &Arc<dyn Clock>) -> Result<Box<dyn HapticDevice>, SceneError> {
+    Parts::default().open_device(scene, clock)
+}
+
+/// The one that `run.device` names.
+pub(crate) fn open_own(scene: &Scene, clock: &Arc<dyn Clock>) -> Result<Box<dyn HapticDevice>, SceneError> {
     let mapping = scene.mapping()?;
     let place = |p: DVec3| mapping.device_state(ToolState::at(p)).position;
     let start = place(scene.tool.position);

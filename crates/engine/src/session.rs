@@ -3,8 +3,9 @@
 use crate::control::Control;
 use crate::fluid_unit::{BodyReport, FluidReport, FluidUnit};
 use crate::obstacles::{ObstacleMover, Obstacles, obstacle_poses};
+use crate::parts::Parts;
 use crate::recorder::{Recorded, Recorder, Tape, make_files};
-use crate::scene::{BackendKind, Scene, ToolSettings};
+use crate::scene::{Scene, ToolSettings};
 use crate::servo::{ServoReport, ServoSettings, ServoUnit};
 use crate::shared::{Shared, servo_settings};
 use crate::threads::{FluidPace, FluidThread, ServoPace, ServoThread};
@@ -14,10 +15,7 @@ use crate::touch::{SolidPaths, Touch};
 use crate::{SceneError, Value};
 use glam::DVec3;
 use hapflow_devices::{DeviceError, HapticDevice};
-use hapflow_fluid::{
-    AnalyticJet, BodyConfig, BodyLoad, BodySample, CpuBackend, FluidBackend, FluidConfig, ParticleView,
-    Surroundings,
-};
+use hapflow_fluid::{BodyConfig, BodyLoad, BodySample, ParticleView, Surroundings};
 use hapflow_haptics::{Filter, LocalModel, Rendering, SafetyGate, ToolState, Touching, Wrench};
 use hapflow_realtime::{
     Clock, HostClock, LatestReader, LatestWriter, RealtimeStatus, RingConsumer, SharedFlags, latest, ring,
@@ -50,6 +48,8 @@ pub struct SessionOptions {
     /// Ticks that a recording may fall behind; with 0 nothing can be recorded. See [`Session::record`] and
     /// [`Session::take_tape`].
     pub tape: usize,
+    /// What plugins bring, of which the scene takes what it names.
+    pub parts: Parts,
 }
 
 impl std::fmt::Debug for SessionOptions {
@@ -68,6 +68,7 @@ impl SessionOptions {
             devices: Vec::new(),
             clock: Arc::new(hapflow_realtime::RealClock::new()),
             tape: 0,
+            parts: Parts::default(),
         }
     }
 }
@@ -135,7 +136,7 @@ impl Session {
         let control = Control::new(scene);
         let (mut tools, mut lanes, mut writers, mut felt) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (tool, clear) in scene.tools().zip(&control.clear) {
-            let opened = open_tool(scene, tool, &control, clear, options.tape)?;
+            let opened = open_tool(scene, tool, &control, clear, &options)?;
             tools.push(opened.ends);
             lanes.push(opened.lane);
             writers.push(opened.settings);
@@ -148,7 +149,7 @@ impl Session {
         let (bodies_in, bodies) = latest(config.world.bodies.iter().map(at_rest).collect::<Vec<_>>());
         let (mover, poses) = obstacle_poses(scene.obstacles.len());
         let fluid = FluidUnit {
-            backend: open_backend(scene, &config)?,
+            backend: options.parts.open_backend(scene, &config)?,
             obstacles: Obstacles::new(
                 poses,
                 &config.world.bodies[lanes.len()..][..scene.obstacles.len()],
@@ -442,7 +443,7 @@ fn open_tool(
     tool: &ToolSettings,
     control: &Control,
     clear: &SharedFlags,
-    tape: usize,
+    SessionOptions { tape, parts, .. }: &SessionOptions,
 ) -> Result<OpenedTool, SceneError> {
     let first = servo_settings(scene, tool);
     let (settings_in, settings) = latest(first);
@@ -450,7 +451,7 @@ fn open_tool(
     let (report_in, report) = latest(ServoReport::default());
     // Two seconds of ticks: more than any fluid frame, and than the gate holds a stale force.
     let (path, path_out) = ring(2048);
-    let (tape_in, tape) = (tape > 0).then(|| ring(tape)).unzip();
+    let (tape_in, tape) = (*tape > 0).then(|| ring(*tape)).unzip();
     let mapping = scene.mapping()?;
     let (touch, solids, touching) = match Touch::open(scene, tool) {
         Some((touch, solids, touching)) => (Some(touch), Some(solids), Some(touching)),
@@ -459,7 +460,7 @@ fn open_tool(
     let servo = ServoUnit {
         last_device: mapping.device_state(ToolState::at(tool.position)),
         mapping,
-        rendering: Rendering::new(scene.run.coupling),
+        rendering: Rendering::new(scene.coupling()),
         lift: Wrench::from_force(DVec3::Y * (scene.mapping.carried_mass * STANDARD_GRAVITY)),
         clutch: scene.clutch(),
         filter: Filter::new(&scene.filter(), 1000.0)?,
@@ -480,14 +481,7 @@ fn open_tool(
         started_s: 0.0,
         pace: None,
     };
-    let lane = ToolLane::new(scene.run.coupling.build(), path_out, model_in, tool.position);
+    let lane = ToolLane::new(parts.make_coupling(scene)?, path_out, model_in, tool.position);
     let ends = ToolEnds { servo: Some(servo), report, touching, tape };
     Ok(OpenedTool { ends, lane, settings: settings_in, solids })
-}
-
-fn open_backend(scene: &Scene, config: &FluidConfig) -> Result<Box<dyn FluidBackend>, SceneError> {
-    Ok(match scene.run.backend {
-        BackendKind::Cpu => Box::new(CpuBackend::new(config)?),
-        BackendKind::AnalyticJet => Box::new(AnalyticJet::new(config)?),
-    })
 }

@@ -266,6 +266,21 @@ const RUN_AND_FLUID: &[Setting<Scene>] = &[
         "Motion of the replay device: a shipped name or a CSV file (time_s,x_m,y_m,z_m)."
     ),
     choice!("run.motion_origin", FIXED, run.motion_origin, ["tool" => MotionOrigin::Tool, "scene" => MotionOrigin::Scene], "Where that motion begins: at the tool's start, in the device's axes, or where it says in the scene, as a recording has it."),
+    text!(
+        "plugin.backend",
+        plugin.backend,
+        "Fluid of a plugin (`hapflow run --plugin`), by its name, in place of `run.backend`; not with coupling `local`."
+    ),
+    text!(
+        "plugin.coupling",
+        plugin.coupling,
+        "Coupling of a plugin, by its name, in place of `run.coupling`."
+    ),
+    text!(
+        "plugin.device",
+        plugin.device,
+        "Device of a plugin, by its file's name, in place of `run.device`: in real time."
+    ),
     choice!("fluid.solver", LIVE, fluid.solver, ["wcsph" => Solver::Wcsph, "dfsph" => Solver::Dfsph, "muller" => Solver::Muller], "`wcsph`: stiff, with density diffusion and analytic walls; `dfsph`: incompressible by iteration, the same walls; `muller`: the thesis's."),
     choice!("fluid.mode", LIVE, fluid.mode, ["full" => InteractionMode::Full, "none" => InteractionMode::None, "mixed" => InteractionMode::Mixed], "Which particles act on which: all; none (gravity and contacts only); or in every other sub-step."),
     number!(

@@ -15,6 +15,8 @@ pub const HAPFLOW_KIND_SESSION_CONFIG: u32 = 1;
 pub const HAPFLOW_MAX_TOOLS: u32 = 8;
 pub const HAPFLOW_EXTENSION_DEVICE: &[u8; 17] = b"hapflow.device/1\0";
 pub const HAPFLOW_EXTENSION_LOG: &[u8; 14] = b"hapflow.log/1\0";
+pub const HAPFLOW_EXTENSION_FLUID_BACKEND: &[u8; 24] = b"hapflow.fluid-backend/1\0";
+pub const HAPFLOW_EXTENSION_COUPLING: &[u8; 19] = b"hapflow.coupling/1\0";
 pub const HAPFLOW_MAX_CONTACTS: u32 = 8;
 pub type hapflow_result = i32;
 pub const HAPFLOW_OK: _bindgen_ty_1 = 0;
@@ -1075,10 +1077,583 @@ const _: () = {
         "Offset of field: hapflow_log_extension::poll",
     ][::core::mem::offset_of!(hapflow_log_extension, poll) - 8usize];
 };
-pub const HAPFLOW_SOLID_GROUND: _bindgen_ty_10 = 1;
-pub const HAPFLOW_SOLID_CONTAINER: _bindgen_ty_10 = 2;
-pub const HAPFLOW_SOLID_OBSTACLE: _bindgen_ty_10 = 3;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_fluid_box {
+    pub min: [f64; 3usize],
+    pub max: [f64; 3usize],
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    ["Size of hapflow_fluid_box"][::core::mem::size_of::<hapflow_fluid_box>() - 48usize];
+    [
+        "Alignment of hapflow_fluid_box",
+    ][::core::mem::align_of::<hapflow_fluid_box>() - 8usize];
+    [
+        "Offset of field: hapflow_fluid_box::min",
+    ][::core::mem::offset_of!(hapflow_fluid_box, min) - 0usize];
+    [
+        "Offset of field: hapflow_fluid_box::max",
+    ][::core::mem::offset_of!(hapflow_fluid_box, max) - 24usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_fluid_source {
+    pub position: [f64; 3usize],
+    pub direction: [f64; 3usize],
+    pub diameter: f64,
+    pub speed: f64,
+    pub period: f64,
+    pub duty: f64,
+    pub on: u32,
+    pub reserved: u32,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_fluid_source",
+    ][::core::mem::size_of::<hapflow_fluid_source>() - 88usize];
+    [
+        "Alignment of hapflow_fluid_source",
+    ][::core::mem::align_of::<hapflow_fluid_source>() - 8usize];
+    [
+        "Offset of field: hapflow_fluid_source::position",
+    ][::core::mem::offset_of!(hapflow_fluid_source, position) - 0usize];
+    [
+        "Offset of field: hapflow_fluid_source::direction",
+    ][::core::mem::offset_of!(hapflow_fluid_source, direction) - 24usize];
+    [
+        "Offset of field: hapflow_fluid_source::diameter",
+    ][::core::mem::offset_of!(hapflow_fluid_source, diameter) - 48usize];
+    [
+        "Offset of field: hapflow_fluid_source::speed",
+    ][::core::mem::offset_of!(hapflow_fluid_source, speed) - 56usize];
+    [
+        "Offset of field: hapflow_fluid_source::period",
+    ][::core::mem::offset_of!(hapflow_fluid_source, period) - 64usize];
+    [
+        "Offset of field: hapflow_fluid_source::duty",
+    ][::core::mem::offset_of!(hapflow_fluid_source, duty) - 72usize];
+    [
+        "Offset of field: hapflow_fluid_source::on",
+    ][::core::mem::offset_of!(hapflow_fluid_source, on) - 80usize];
+    [
+        "Offset of field: hapflow_fluid_source::reserved",
+    ][::core::mem::offset_of!(hapflow_fluid_source, reserved) - 84usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_fluid_body {
+    pub shape: u32,
+    pub reserved: u32,
+    pub radius: f64,
+    pub length: f64,
+    pub extent: [f64; 3usize],
+    pub bounding_radius: f64,
+    pub mass: f64,
+    pub position: [f64; 3usize],
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_fluid_body",
+    ][::core::mem::size_of::<hapflow_fluid_body>() - 88usize];
+    [
+        "Alignment of hapflow_fluid_body",
+    ][::core::mem::align_of::<hapflow_fluid_body>() - 8usize];
+    [
+        "Offset of field: hapflow_fluid_body::shape",
+    ][::core::mem::offset_of!(hapflow_fluid_body, shape) - 0usize];
+    [
+        "Offset of field: hapflow_fluid_body::reserved",
+    ][::core::mem::offset_of!(hapflow_fluid_body, reserved) - 4usize];
+    [
+        "Offset of field: hapflow_fluid_body::radius",
+    ][::core::mem::offset_of!(hapflow_fluid_body, radius) - 8usize];
+    [
+        "Offset of field: hapflow_fluid_body::length",
+    ][::core::mem::offset_of!(hapflow_fluid_body, length) - 16usize];
+    [
+        "Offset of field: hapflow_fluid_body::extent",
+    ][::core::mem::offset_of!(hapflow_fluid_body, extent) - 24usize];
+    [
+        "Offset of field: hapflow_fluid_body::bounding_radius",
+    ][::core::mem::offset_of!(hapflow_fluid_body, bounding_radius) - 48usize];
+    [
+        "Offset of field: hapflow_fluid_body::mass",
+    ][::core::mem::offset_of!(hapflow_fluid_body, mass) - 56usize];
+    [
+        "Offset of field: hapflow_fluid_body::position",
+    ][::core::mem::offset_of!(hapflow_fluid_body, position) - 64usize];
+};
+pub const HAPFLOW_CONTAINER_NONE: _bindgen_ty_10 = 0;
+pub const HAPFLOW_CONTAINER_BOX: _bindgen_ty_10 = 1;
+pub const HAPFLOW_CONTAINER_CYLINDER: _bindgen_ty_10 = 2;
+pub const HAPFLOW_CONTAINER_BOWL: _bindgen_ty_10 = 3;
 pub type _bindgen_ty_10 = ::core::ffi::c_uint;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_fluid_config {
+    pub size: u32,
+    pub threads: u32,
+    pub frame_hz: f64,
+    pub density: f64,
+    pub viscosity: f64,
+    pub surface_tension: f64,
+    pub spacing: f64,
+    pub gravity: [f64; 3usize],
+    pub two_way: u32,
+    pub has_ground: u32,
+    pub ground: f64,
+    pub bounds: hapflow_fluid_box,
+    pub container: u32,
+    pub periodic: u32,
+    pub inside: hapflow_fluid_box,
+    pub source_count: u32,
+    pub pool_count: u32,
+    pub sink_count: u32,
+    pub body_count: u32,
+    pub sources: *const hapflow_fluid_source,
+    pub pools: *const hapflow_fluid_box,
+    pub sinks: *const hapflow_fluid_box,
+    pub bodies: *const hapflow_fluid_body,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_fluid_config",
+    ][::core::mem::size_of::<hapflow_fluid_config>() - 240usize];
+    [
+        "Alignment of hapflow_fluid_config",
+    ][::core::mem::align_of::<hapflow_fluid_config>() - 8usize];
+    [
+        "Offset of field: hapflow_fluid_config::size",
+    ][::core::mem::offset_of!(hapflow_fluid_config, size) - 0usize];
+    [
+        "Offset of field: hapflow_fluid_config::threads",
+    ][::core::mem::offset_of!(hapflow_fluid_config, threads) - 4usize];
+    [
+        "Offset of field: hapflow_fluid_config::frame_hz",
+    ][::core::mem::offset_of!(hapflow_fluid_config, frame_hz) - 8usize];
+    [
+        "Offset of field: hapflow_fluid_config::density",
+    ][::core::mem::offset_of!(hapflow_fluid_config, density) - 16usize];
+    [
+        "Offset of field: hapflow_fluid_config::viscosity",
+    ][::core::mem::offset_of!(hapflow_fluid_config, viscosity) - 24usize];
+    [
+        "Offset of field: hapflow_fluid_config::surface_tension",
+    ][::core::mem::offset_of!(hapflow_fluid_config, surface_tension) - 32usize];
+    [
+        "Offset of field: hapflow_fluid_config::spacing",
+    ][::core::mem::offset_of!(hapflow_fluid_config, spacing) - 40usize];
+    [
+        "Offset of field: hapflow_fluid_config::gravity",
+    ][::core::mem::offset_of!(hapflow_fluid_config, gravity) - 48usize];
+    [
+        "Offset of field: hapflow_fluid_config::two_way",
+    ][::core::mem::offset_of!(hapflow_fluid_config, two_way) - 72usize];
+    [
+        "Offset of field: hapflow_fluid_config::has_ground",
+    ][::core::mem::offset_of!(hapflow_fluid_config, has_ground) - 76usize];
+    [
+        "Offset of field: hapflow_fluid_config::ground",
+    ][::core::mem::offset_of!(hapflow_fluid_config, ground) - 80usize];
+    [
+        "Offset of field: hapflow_fluid_config::bounds",
+    ][::core::mem::offset_of!(hapflow_fluid_config, bounds) - 88usize];
+    [
+        "Offset of field: hapflow_fluid_config::container",
+    ][::core::mem::offset_of!(hapflow_fluid_config, container) - 136usize];
+    [
+        "Offset of field: hapflow_fluid_config::periodic",
+    ][::core::mem::offset_of!(hapflow_fluid_config, periodic) - 140usize];
+    [
+        "Offset of field: hapflow_fluid_config::inside",
+    ][::core::mem::offset_of!(hapflow_fluid_config, inside) - 144usize];
+    [
+        "Offset of field: hapflow_fluid_config::source_count",
+    ][::core::mem::offset_of!(hapflow_fluid_config, source_count) - 192usize];
+    [
+        "Offset of field: hapflow_fluid_config::pool_count",
+    ][::core::mem::offset_of!(hapflow_fluid_config, pool_count) - 196usize];
+    [
+        "Offset of field: hapflow_fluid_config::sink_count",
+    ][::core::mem::offset_of!(hapflow_fluid_config, sink_count) - 200usize];
+    [
+        "Offset of field: hapflow_fluid_config::body_count",
+    ][::core::mem::offset_of!(hapflow_fluid_config, body_count) - 204usize];
+    [
+        "Offset of field: hapflow_fluid_config::sources",
+    ][::core::mem::offset_of!(hapflow_fluid_config, sources) - 208usize];
+    [
+        "Offset of field: hapflow_fluid_config::pools",
+    ][::core::mem::offset_of!(hapflow_fluid_config, pools) - 216usize];
+    [
+        "Offset of field: hapflow_fluid_config::sinks",
+    ][::core::mem::offset_of!(hapflow_fluid_config, sinks) - 224usize];
+    [
+        "Offset of field: hapflow_fluid_config::bodies",
+    ][::core::mem::offset_of!(hapflow_fluid_config, bodies) - 232usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_fluid_sample {
+    pub time_s: f64,
+    pub position: [f64; 3usize],
+    pub orientation: [f64; 4usize],
+    pub velocity: [f64; 3usize],
+    pub angular_velocity: [f64; 3usize],
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_fluid_sample",
+    ][::core::mem::size_of::<hapflow_fluid_sample>() - 112usize];
+    [
+        "Alignment of hapflow_fluid_sample",
+    ][::core::mem::align_of::<hapflow_fluid_sample>() - 8usize];
+    [
+        "Offset of field: hapflow_fluid_sample::time_s",
+    ][::core::mem::offset_of!(hapflow_fluid_sample, time_s) - 0usize];
+    [
+        "Offset of field: hapflow_fluid_sample::position",
+    ][::core::mem::offset_of!(hapflow_fluid_sample, position) - 8usize];
+    [
+        "Offset of field: hapflow_fluid_sample::orientation",
+    ][::core::mem::offset_of!(hapflow_fluid_sample, orientation) - 32usize];
+    [
+        "Offset of field: hapflow_fluid_sample::velocity",
+    ][::core::mem::offset_of!(hapflow_fluid_sample, velocity) - 64usize];
+    [
+        "Offset of field: hapflow_fluid_sample::angular_velocity",
+    ][::core::mem::offset_of!(hapflow_fluid_sample, angular_velocity) - 88usize];
+};
+pub const HAPFLOW_MOTION_LED: _bindgen_ty_11 = 1;
+pub const HAPFLOW_MOTION_DRIVEN: _bindgen_ty_11 = 2;
+pub const HAPFLOW_MOTION_FLOATING: _bindgen_ty_11 = 3;
+pub type _bindgen_ty_11 = ::core::ffi::c_uint;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_fluid_motion {
+    pub drive: u32,
+    pub sample_count: u32,
+    pub velocity: [f64; 3usize],
+    pub path: *const hapflow_fluid_sample,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_fluid_motion",
+    ][::core::mem::size_of::<hapflow_fluid_motion>() - 40usize];
+    [
+        "Alignment of hapflow_fluid_motion",
+    ][::core::mem::align_of::<hapflow_fluid_motion>() - 8usize];
+    [
+        "Offset of field: hapflow_fluid_motion::drive",
+    ][::core::mem::offset_of!(hapflow_fluid_motion, drive) - 0usize];
+    [
+        "Offset of field: hapflow_fluid_motion::sample_count",
+    ][::core::mem::offset_of!(hapflow_fluid_motion, sample_count) - 4usize];
+    [
+        "Offset of field: hapflow_fluid_motion::velocity",
+    ][::core::mem::offset_of!(hapflow_fluid_motion, velocity) - 8usize];
+    [
+        "Offset of field: hapflow_fluid_motion::path",
+    ][::core::mem::offset_of!(hapflow_fluid_motion, path) - 32usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_fluid_frame {
+    pub size: u32,
+    pub body_count: u32,
+    pub duration_s: f64,
+    pub motions: *const hapflow_fluid_motion,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_fluid_frame",
+    ][::core::mem::size_of::<hapflow_fluid_frame>() - 24usize];
+    [
+        "Alignment of hapflow_fluid_frame",
+    ][::core::mem::align_of::<hapflow_fluid_frame>() - 8usize];
+    [
+        "Offset of field: hapflow_fluid_frame::size",
+    ][::core::mem::offset_of!(hapflow_fluid_frame, size) - 0usize];
+    [
+        "Offset of field: hapflow_fluid_frame::body_count",
+    ][::core::mem::offset_of!(hapflow_fluid_frame, body_count) - 4usize];
+    [
+        "Offset of field: hapflow_fluid_frame::duration_s",
+    ][::core::mem::offset_of!(hapflow_fluid_frame, duration_s) - 8usize];
+    [
+        "Offset of field: hapflow_fluid_frame::motions",
+    ][::core::mem::offset_of!(hapflow_fluid_frame, motions) - 16usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_fluid_load {
+    pub pressure_force: [f64; 3usize],
+    pub viscous_force: [f64; 3usize],
+    pub torque: [f64; 3usize],
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_fluid_load",
+    ][::core::mem::size_of::<hapflow_fluid_load>() - 72usize];
+    [
+        "Alignment of hapflow_fluid_load",
+    ][::core::mem::align_of::<hapflow_fluid_load>() - 8usize];
+    [
+        "Offset of field: hapflow_fluid_load::pressure_force",
+    ][::core::mem::offset_of!(hapflow_fluid_load, pressure_force) - 0usize];
+    [
+        "Offset of field: hapflow_fluid_load::viscous_force",
+    ][::core::mem::offset_of!(hapflow_fluid_load, viscous_force) - 24usize];
+    [
+        "Offset of field: hapflow_fluid_load::torque",
+    ][::core::mem::offset_of!(hapflow_fluid_load, torque) - 48usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_fluid_result {
+    pub size: u32,
+    pub degraded: u32,
+    pub particles: u64,
+    pub substeps: u64,
+    pub max_speed: f64,
+    pub loads: *mut hapflow_fluid_load,
+    pub states: *mut hapflow_fluid_sample,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_fluid_result",
+    ][::core::mem::size_of::<hapflow_fluid_result>() - 48usize];
+    [
+        "Alignment of hapflow_fluid_result",
+    ][::core::mem::align_of::<hapflow_fluid_result>() - 8usize];
+    [
+        "Offset of field: hapflow_fluid_result::size",
+    ][::core::mem::offset_of!(hapflow_fluid_result, size) - 0usize];
+    [
+        "Offset of field: hapflow_fluid_result::degraded",
+    ][::core::mem::offset_of!(hapflow_fluid_result, degraded) - 4usize];
+    [
+        "Offset of field: hapflow_fluid_result::particles",
+    ][::core::mem::offset_of!(hapflow_fluid_result, particles) - 8usize];
+    [
+        "Offset of field: hapflow_fluid_result::substeps",
+    ][::core::mem::offset_of!(hapflow_fluid_result, substeps) - 16usize];
+    [
+        "Offset of field: hapflow_fluid_result::max_speed",
+    ][::core::mem::offset_of!(hapflow_fluid_result, max_speed) - 24usize];
+    [
+        "Offset of field: hapflow_fluid_result::loads",
+    ][::core::mem::offset_of!(hapflow_fluid_result, loads) - 32usize];
+    [
+        "Offset of field: hapflow_fluid_result::states",
+    ][::core::mem::offset_of!(hapflow_fluid_result, states) - 40usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_fluid_backend_extension {
+    pub size: u32,
+    pub reserved: u32,
+    pub name: *const ::core::ffi::c_char,
+    pub create: ::core::option::Option<
+        unsafe extern "C" fn(
+            config: *const hapflow_fluid_config,
+            fluid: *mut *mut ::core::ffi::c_void,
+            reason: *mut ::core::ffi::c_char,
+            capacity: usize,
+        ) -> hapflow_result,
+    >,
+    pub configure: ::core::option::Option<
+        unsafe extern "C" fn(
+            fluid: *mut ::core::ffi::c_void,
+            config: *const hapflow_fluid_config,
+            reason: *mut ::core::ffi::c_char,
+            capacity: usize,
+        ) -> hapflow_result,
+    >,
+    pub step: ::core::option::Option<
+        unsafe extern "C" fn(
+            fluid: *mut ::core::ffi::c_void,
+            frame: *const hapflow_fluid_frame,
+            result: *mut hapflow_fluid_result,
+        ) -> hapflow_result,
+    >,
+    pub particles: ::core::option::Option<
+        unsafe extern "C" fn(
+            fluid: *mut ::core::ffi::c_void,
+            positions: *mut f32,
+            capacity: usize,
+            count: *mut usize,
+        ) -> hapflow_result,
+    >,
+    pub destroy: ::core::option::Option<
+        unsafe extern "C" fn(fluid: *mut ::core::ffi::c_void),
+    >,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_fluid_backend_extension",
+    ][::core::mem::size_of::<hapflow_fluid_backend_extension>() - 56usize];
+    [
+        "Alignment of hapflow_fluid_backend_extension",
+    ][::core::mem::align_of::<hapflow_fluid_backend_extension>() - 8usize];
+    [
+        "Offset of field: hapflow_fluid_backend_extension::size",
+    ][::core::mem::offset_of!(hapflow_fluid_backend_extension, size) - 0usize];
+    [
+        "Offset of field: hapflow_fluid_backend_extension::reserved",
+    ][::core::mem::offset_of!(hapflow_fluid_backend_extension, reserved) - 4usize];
+    [
+        "Offset of field: hapflow_fluid_backend_extension::name",
+    ][::core::mem::offset_of!(hapflow_fluid_backend_extension, name) - 8usize];
+    [
+        "Offset of field: hapflow_fluid_backend_extension::create",
+    ][::core::mem::offset_of!(hapflow_fluid_backend_extension, create) - 16usize];
+    [
+        "Offset of field: hapflow_fluid_backend_extension::configure",
+    ][::core::mem::offset_of!(hapflow_fluid_backend_extension, configure) - 24usize];
+    [
+        "Offset of field: hapflow_fluid_backend_extension::step",
+    ][::core::mem::offset_of!(hapflow_fluid_backend_extension, step) - 32usize];
+    [
+        "Offset of field: hapflow_fluid_backend_extension::particles",
+    ][::core::mem::offset_of!(hapflow_fluid_backend_extension, particles) - 40usize];
+    [
+        "Offset of field: hapflow_fluid_backend_extension::destroy",
+    ][::core::mem::offset_of!(hapflow_fluid_backend_extension, destroy) - 48usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_coupling_frame {
+    pub size: u32,
+    pub reserved: u32,
+    pub frame_s: f64,
+    pub body_position: [f64; 3usize],
+    pub body_velocity: [f64; 3usize],
+    pub body_mass: f64,
+    pub hand_position: [f64; 3usize],
+    pub hand_velocity: [f64; 3usize],
+    pub load: hapflow_wrench,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_coupling_frame",
+    ][::core::mem::size_of::<hapflow_coupling_frame>() - 168usize];
+    [
+        "Alignment of hapflow_coupling_frame",
+    ][::core::mem::align_of::<hapflow_coupling_frame>() - 8usize];
+    [
+        "Offset of field: hapflow_coupling_frame::size",
+    ][::core::mem::offset_of!(hapflow_coupling_frame, size) - 0usize];
+    [
+        "Offset of field: hapflow_coupling_frame::reserved",
+    ][::core::mem::offset_of!(hapflow_coupling_frame, reserved) - 4usize];
+    [
+        "Offset of field: hapflow_coupling_frame::frame_s",
+    ][::core::mem::offset_of!(hapflow_coupling_frame, frame_s) - 8usize];
+    [
+        "Offset of field: hapflow_coupling_frame::body_position",
+    ][::core::mem::offset_of!(hapflow_coupling_frame, body_position) - 16usize];
+    [
+        "Offset of field: hapflow_coupling_frame::body_velocity",
+    ][::core::mem::offset_of!(hapflow_coupling_frame, body_velocity) - 40usize];
+    [
+        "Offset of field: hapflow_coupling_frame::body_mass",
+    ][::core::mem::offset_of!(hapflow_coupling_frame, body_mass) - 64usize];
+    [
+        "Offset of field: hapflow_coupling_frame::hand_position",
+    ][::core::mem::offset_of!(hapflow_coupling_frame, hand_position) - 72usize];
+    [
+        "Offset of field: hapflow_coupling_frame::hand_velocity",
+    ][::core::mem::offset_of!(hapflow_coupling_frame, hand_velocity) - 96usize];
+    [
+        "Offset of field: hapflow_coupling_frame::load",
+    ][::core::mem::offset_of!(hapflow_coupling_frame, load) - 120usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct hapflow_coupling_extension {
+    pub size: u32,
+    pub reserved: u32,
+    pub name: *const ::core::ffi::c_char,
+    pub create: ::core::option::Option<
+        unsafe extern "C" fn(coupling: *mut *mut ::core::ffi::c_void) -> hapflow_result,
+    >,
+    pub begin: ::core::option::Option<
+        unsafe extern "C" fn(
+            coupling: *mut ::core::ffi::c_void,
+            frame: *const hapflow_coupling_frame,
+            driven: *mut u32,
+            velocity: *mut f64,
+        ) -> hapflow_result,
+    >,
+    pub end: ::core::option::Option<
+        unsafe extern "C" fn(
+            coupling: *mut ::core::ffi::c_void,
+            frame: *const hapflow_coupling_frame,
+            felt: *mut hapflow_wrench,
+        ) -> hapflow_result,
+    >,
+    pub destroy: ::core::option::Option<
+        unsafe extern "C" fn(coupling: *mut ::core::ffi::c_void),
+    >,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    [
+        "Size of hapflow_coupling_extension",
+    ][::core::mem::size_of::<hapflow_coupling_extension>() - 48usize];
+    [
+        "Alignment of hapflow_coupling_extension",
+    ][::core::mem::align_of::<hapflow_coupling_extension>() - 8usize];
+    [
+        "Offset of field: hapflow_coupling_extension::size",
+    ][::core::mem::offset_of!(hapflow_coupling_extension, size) - 0usize];
+    [
+        "Offset of field: hapflow_coupling_extension::reserved",
+    ][::core::mem::offset_of!(hapflow_coupling_extension, reserved) - 4usize];
+    [
+        "Offset of field: hapflow_coupling_extension::name",
+    ][::core::mem::offset_of!(hapflow_coupling_extension, name) - 8usize];
+    [
+        "Offset of field: hapflow_coupling_extension::create",
+    ][::core::mem::offset_of!(hapflow_coupling_extension, create) - 16usize];
+    [
+        "Offset of field: hapflow_coupling_extension::begin",
+    ][::core::mem::offset_of!(hapflow_coupling_extension, begin) - 24usize];
+    [
+        "Offset of field: hapflow_coupling_extension::end",
+    ][::core::mem::offset_of!(hapflow_coupling_extension, end) - 32usize];
+    [
+        "Offset of field: hapflow_coupling_extension::destroy",
+    ][::core::mem::offset_of!(hapflow_coupling_extension, destroy) - 40usize];
+};
+pub const HAPFLOW_SOLID_GROUND: _bindgen_ty_12 = 1;
+pub const HAPFLOW_SOLID_CONTAINER: _bindgen_ty_12 = 2;
+pub const HAPFLOW_SOLID_OBSTACLE: _bindgen_ty_12 = 3;
+pub type _bindgen_ty_12 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct hapflow_contact {

@@ -15,6 +15,9 @@ pub enum PluginError {
     /// It is no library, or lacks a function of the interface.
     #[error("{}: {}", .0, reason(.1))]
     Load(String, libloading::Error),
+    /// It is one, but cannot be used.
+    #[error("{0}: {1}")]
+    Refused(String, String),
 }
 
 /// What the system says of it, where it says something.
