@@ -5,6 +5,7 @@
 mod c_support;
 
 use c_support::{Bridge, Variant, compile, header, library, root, scratch};
+use hapflow_host::{Extensions, find};
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -211,6 +212,7 @@ fn what_is_installed_is_complete_and_knows_no_place() {
         "share/hapflow/scenes/tap.toml",
         "share/hapflow/examples/tap.c",
         "share/hapflow/examples/cmake-consumer/CMakeLists.txt",
+        "share/hapflow/examples/plugins/CMakeLists.txt",
         "share/hapflow/adapters/CMakeLists.txt",
         "share/hapflow/adapters/common/hapflow/adapter/fluid.hpp",
         "share/hapflow/adapters/hapi/LICENSE",
@@ -298,6 +300,25 @@ fn a_project_builds_with_find_package() {
     let broken = configure(&tree);
     let err = String::from_utf8_lossy(&broken.stderr);
     assert!(!broken.status.success() && err.contains("libhapflow.so"), "{err}");
+}
+
+#[test]
+fn the_plugins_of_the_examples_build_with_find_package() {
+    if !there("cmake") {
+        return;
+    }
+    let (tree, build) = (installed("cpp-plugins"), scratch().join("cpp-plugins-build"));
+    drop(fs::remove_dir_all(&build));
+    let mut option = OsString::from("-DCMAKE_PREFIX_PATH=");
+    option.push(&tree);
+    let (source, mut cmake) = (tree.join("share/hapflow/examples/plugins"), Command::new("cmake"));
+    said(&cmake.arg("-S").arg(source).arg("-B").arg(&build).arg(option).output().unwrap());
+    said(&Command::new("cmake").arg("--build").arg(&build).output().unwrap());
+    let load = |name: &str| Extensions::load(&find(name, Some(build.as_os_str())).unwrap()).unwrap();
+    assert_eq!(load("jet_fluid").fluid.unwrap().name(), "jet-fluid");
+    assert_eq!(load("bobbing_device").device.unwrap().name(), "bobbing_device");
+    let readelf = Command::new("readelf").arg("-d").arg(build.join("libjet_fluid.so")).output().unwrap();
+    assert!(!said(&readelf).contains("libhapflow"), "a plugin needs no libhapflow");
 }
 
 #[test]

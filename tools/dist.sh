@@ -96,6 +96,7 @@ for adapter in cpp/adapters/*/; do
 done
 put share/hapflow/adapters cpp/adapters/CMakeLists.txt
 put share/hapflow/examples/cmake-consumer examples/cmake-consumer/{CMakeLists.txt,main.cpp}
+put share/hapflow/examples/plugins examples/plugins/{CMakeLists.txt,*.c,*.cpp}
 
 # --- Where it goes --------------------------------------------------------------------------------
 
