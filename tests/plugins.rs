@@ -166,7 +166,8 @@ const FLUID: &str = "static int steps;\nstatic void destroy(void* f) { (void)f; 
     static hapflow_result configure(void* f, const hapflow_fluid_config* c, char* r, size_t n) {\n\
     (void)f; (void)c; (void)r; (void)n; return HAPFLOW_OK; }\n\
     static hapflow_result step(void* f, const hapflow_fluid_frame* frame, hapflow_fluid_result* r) {\n\
-    (void)f; (void)frame; r->loads[0].pressure_force[1] = 1; steps++; STEP return HAPFLOW_OK; }\n\
+    (void)f; (void)frame; r->loads[0].pressure_force[1] = 1; steps++;\n\
+    r->substeps = UINT64_MAX; STEP return HAPFLOW_OK; }\n\
     const hapflow_fluid_backend_extension table = { .size = SIZE, .name = NAME, .create = create,\n\
     .configure = configure, .step = step, .destroy = DESTROY };\n\
     const void* hapflow_extension(const char* name) { (void)destroy; return strcmp(name, TABLE) ? NULL : &table; }";
@@ -193,8 +194,8 @@ fn a_fluid_that_fails_while_it_runs_is_not_felt_and_says_why() {
     for (name, step, why) in [
         ("nan", "r->loads[0].pressure_force[1] = NAN;", "step gave body 0 a load that is not finite"),
         ("fails", "return HAPFLOW_ERROR_UNSUPPORTED;", "step gave result -"),
-        ("astray", "r->states[0].position[0] = INFINITY;", "step put body 0 nowhere: "),
-        ("twisted", "r->states[0].orientation[3] = 0.5;", "step put body 0 nowhere: "),
+        ("astray", "r->states[0].position[0] = INFINITY;", "step gave body 0 a motion that cannot be: "),
+        ("twisted", "r->states[0].orientation[3] = 0.5;", "step gave body 0 a motion that cannot be: "),
     ] {
         // Only in its eleventh frame, and never again: the fault stays.
         let plugin = Extensions::load(&fluid(name, &[("STEP", &format!("if (steps == 11) {{ {step} }}"))]));
@@ -357,7 +358,8 @@ fn a_coupling_that_fails_is_not_felt_and_says_why() {
     for (name, word, why) in [
         ("ends-badly", ("END", "-1"), "coupling share: end gave result -1"),
         ("begins-badly", ("BEGIN", "-2"), "coupling share: begin gave result -2"),
-        ("infinite", ("SHARE", "INFINITY"), "coupling share: end gave numbers that are none"),
+        ("too-fast", ("BEGIN", "(v[0] = 1e4, 0)"), "coupling share: begin gave numbers that cannot be"),
+        ("infinite", ("SHARE", "INFINITY"), "coupling share: end gave numbers that cannot be"),
     ] {
         let coupling = coupling(name, &[word]);
         let outcome = outcome(&scene(&[]), coupling_parts(coupling.clone())).unwrap();

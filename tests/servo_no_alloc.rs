@@ -1,14 +1,18 @@
 //! The servo path neither allocates nor frees, over 10⁵ ticks with every filter, new models, faults and changes.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod c_support;
 mod common;
 
+use c_support::{compile, root, scratch};
 use common::{jet, open, word};
 use glam::DVec3;
 use hapflow::engine::Value;
-use hapflow::haptics::ToolState;
+use hapflow::haptics::{GatedWrench, ToolState};
+use hapflow_host::Extensions;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
+use std::ffi::OsStr;
 
 thread_local! {
     static WATCHED: Cell<bool> = const { Cell::new(false) };
@@ -106,4 +110,21 @@ fn ticks(scene: &hapflow::engine::Scene, n: usize) -> usize {
         allocations += seen;
     }
     allocations
+}
+
+#[test]
+fn a_plugins_device_is_read_and_written_without_allocating() {
+    let (source, made) =
+        (root().join("examples/plugins/bobbing_device.cpp"), scratch().join("libno_alloc_device.so"));
+    let words = ["-shared", "-fPIC", "-o"].map(OsStr::new);
+    compile("c++", "c++17", &[&words[..], &[made.as_os_str(), source.as_os_str()]].concat()).unwrap();
+    let mut device = Extensions::load(&made).unwrap().device.unwrap().open(DVec3::ZERO).unwrap();
+    let (lost, seen) = watched(|| {
+        let ticks = (0..10_000).map(|n| device.read(f64::from(n) * 1e-3).is_err());
+        let lost = ticks.filter(|lost| *lost).count();
+        device.write(GatedWrench::ZERO, 1e-3).unwrap();
+        // A state that cannot be is an error, which costs nothing either.
+        lost + usize::from(device.read(f64::NAN).is_ok())
+    });
+    assert_eq!((lost, seen), (0, 0));
 }

@@ -12,8 +12,9 @@
  * - They must return, and let no exception out. They run in hapflow's process: what they break is broken.
  * - What is pointed to lasts for the call, and is not null. What a plugin is given begins with a size where it may grow: a
  *   newer hapflow gives more.
- * - A negative result, HAPFLOW_ERROR_..., is a failure; so is a number that is not finite. While it runs, each is a fault:
- *   the force is zero from then on, and the run ends with the reason.
+ * - A negative result, HAPFLOW_ERROR_..., is a failure; so is a number that is not finite, and a motion beyond the ranges of
+ *   hapflow_tool_state. While it runs, each is a fault: the force is zero from then on, and the run tells the reason at its
+ *   end.
  * - SI units, right-handed, y up. */
 #ifndef HAPFLOW_FLUID_BACKEND_H
 #define HAPFLOW_FLUID_BACKEND_H
@@ -69,7 +70,7 @@ enum {
 /* All that a fluid is made of. It grows at its end. */
 typedef struct hapflow_fluid_config {
     uint32_t size; /* sizeof(hapflow_fluid_config) of hapflow */
-    uint32_t threads; /* worker threads that it may have */
+    uint32_t threads; /* worker threads that it may have, 1 to 1024 */
     double frame_hz; /* fluid frames a second */
     double density; /* kg/m3 */
     double viscosity; /* Pa s */

@@ -26,6 +26,7 @@ Examples:
   hapflow run tap --motion tremor             a recorded hand instead of the simulated one
   hapflow run my-scene.toml --realtime        your own scene, in real time
   hapflow run tap --device auto               with the haptic device that is plugged in
+  hapflow run tap --coupling direct --plugin ./libmine.so    another's fluid, device or coupling
   hapflow scenes --settings                   every setting with its unit, range and default
   hapflow validate jet-plate --set speed=2    the fluid's forces against their known answers
   hapflow stress --trials 2000                shake random scenes, and say what does not hold

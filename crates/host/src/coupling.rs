@@ -4,6 +4,7 @@ use crate::PluginError;
 use crate::extension::{Library, Table};
 use crate::failure::Failure;
 use crate::generated::*;
+use crate::limits::{FASTEST, within};
 use glam::DVec3;
 use hapflow_haptics::{Answer, BodyState, Coupling, Drive, FrameEnd, ToolState, Wrench};
 use std::ffi::c_void;
@@ -47,10 +48,6 @@ impl PluginCoupling {
             destroy: library.required(table.destroy, "destroy")?,
         };
         Ok(Some(Self { functions, failure: Failure::default() }))
-    }
-
-    pub(crate) fn table_name() -> String {
-        hapflow_coupling_extension::name()
     }
 
     /// Its name.
@@ -108,15 +105,11 @@ impl ToolCoupling {
     }
 
     /// Whether a function did what it should; else the reason is kept.
-    fn holds(&self, function: &str, result: hapflow_result, finite: bool) -> bool {
-        let holds = result >= 0 && finite;
+    fn holds(&self, function: &str, result: hapflow_result, sound: bool) -> bool {
+        let holds = result >= 0 && sound;
         if !holds {
-            let what = if result < 0 {
-                format!("gave result {result}")
-            } else {
-                "gave numbers that are none".into()
-            };
-            self.failure.tell(|| format!("coupling {}: {function} {what}", self.functions.name));
+            let what = if result < 0 { format!("result {result}") } else { "numbers that cannot be".into() };
+            self.failure.tell(|| format!("coupling {}: {function} gave {what}", self.functions.name));
         }
         holds
     }
@@ -130,9 +123,12 @@ impl Coupling for ToolCoupling {
         // SAFETY: all are there for the call, and `velocity` has room for three numbers.
         let result =
             unsafe { (self.functions.begin)(self.coupling, &frame, &mut driven, velocity.as_mut_ptr()) };
-        let velocity = DVec3::from_array(velocity);
-        self.begun = self.holds("begin", result, velocity.is_finite());
-        if self.begun && driven != 0 { Drive::Driven { velocity } } else { Drive::Led }
+        self.begun = self.holds("begin", result, within(velocity, FASTEST));
+        if self.begun && driven != 0 {
+            Drive::Driven { velocity: DVec3::from_array(velocity) }
+        } else {
+            Drive::Led
+        }
     }
 
     /// Not finite where the plugin failed: the session makes a fault of it.

@@ -3,6 +3,7 @@
 use crate::PluginError;
 use crate::extension::{Library, Table};
 use crate::generated::*;
+use crate::limits::{FARTHEST, FASTEST, FASTEST_TURN, UNIT, within};
 use glam::{DQuat, DVec3};
 use hapflow_devices::{DeviceError, HapticDevice, Pacing};
 use hapflow_haptics::{GatedWrench, ToolState};
@@ -47,10 +48,6 @@ impl PluginDevice {
         })))
     }
 
-    pub(crate) fn table_name() -> String {
-        hapflow_device_extension::name()
-    }
-
     /// Its name: that of its file, `bobbing` of `libbobbing.so`.
     pub fn name(&self) -> &'static str {
         self.0.name
@@ -87,20 +84,12 @@ struct Device {
     origin: DVec3,
 }
 
-/// Farthest from its origin that a tool may be, m, and fastest, m/s, in each direction: see `hapflow_tool_state`.
-const FARTHEST: f64 = 1000.0;
-/// Fastest that it may turn, rad/s.
-const FASTEST_TURN: f64 = 1e5;
-/// Largest error of the length of a quaternion.
-const UNIT: f64 = 1e-3;
-
 /// The state as hapflow takes it; none if the numbers are none, or beyond what a tool may be.
 fn checked(state: &hapflow_tool_state) -> Option<ToolState> {
-    let within = |v: &[f64; 3], most: f64| v.iter().all(|c| c.abs() <= most);
     let orientation = DQuat::from_array(state.orientation);
-    let sound = within(&state.position, FARTHEST)
-        && within(&state.velocity, FARTHEST)
-        && within(&state.angular_velocity, FASTEST_TURN)
+    let sound = within(state.position, FARTHEST)
+        && within(state.velocity, FASTEST)
+        && within(state.angular_velocity, FASTEST_TURN)
         && (orientation.length() - 1.0).abs() <= UNIT;
     sound.then(|| ToolState {
         position: DVec3::from_array(state.position),

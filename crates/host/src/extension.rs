@@ -1,5 +1,8 @@
 //! A plugin, and the tables of functions that it brings.
 
+use crate::generated::{
+    hapflow_coupling_extension, hapflow_device_extension, hapflow_fluid_backend_extension,
+};
 use crate::{PluginCoupling, PluginDevice, PluginError, PluginFluid};
 use std::ffi::{CStr, OsStr, c_char, c_void};
 use std::path::{Path, PathBuf};
@@ -28,7 +31,11 @@ impl Extensions {
             coupling: PluginCoupling::of(&library)?,
         };
         if brought.fluid.is_none() && brought.device.is_none() && brought.coupling.is_none() {
-            let known = [PluginFluid::table_name(), PluginDevice::table_name(), PluginCoupling::table_name()];
+            let known = [
+                hapflow_fluid_backend_extension::name(),
+                hapflow_device_extension::name(),
+                hapflow_coupling_extension::name(),
+            ];
             return Err(library.refused(format!("it brings none of {}", known.join(", "))));
         }
         Ok(brought)

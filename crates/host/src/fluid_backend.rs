@@ -4,6 +4,7 @@ use crate::PluginError;
 use crate::extension::{Library, Table};
 use crate::failure::Failure;
 use crate::generated::*;
+use crate::limits::{FARTHEST, FASTEST, FASTEST_TURN, UNIT, within};
 use glam::{DQuat, DVec3};
 use hapflow_fluid::{
     Aabb, BodyConfig, BodyDrive, BodyLoad, BodySample, ContainerForm, FluidBackend, FluidConfig, FluidError,
@@ -58,10 +59,6 @@ impl PluginFluid {
             destroy: library.required(table.destroy, "destroy")?,
         };
         Ok(Some(Self { functions, failure: Failure::default() }))
-    }
-
-    pub(crate) fn table_name() -> String {
-        hapflow_fluid_backend_extension::name()
     }
 
     /// Its name.
@@ -286,7 +283,7 @@ impl FluidBackend for Fluid {
         // SAFETY: there is room for as many as are said.
         let result = unsafe { particles(self.fluid, view.positions.as_mut_ptr().cast(), room, &mut count) };
         view.positions.truncate(if result < 0 { 0 } else { count });
-        view.positions.retain(|place| place.iter().all(|c| c.is_finite()));
+        view.positions.retain(|place| within(place.map(f64::from), FARTHEST));
         let there = view.positions.len();
         view.velocities.resize(there, [0.0; 3]);
         view.pressures.resize(there, 0.0);
@@ -299,13 +296,16 @@ impl FluidBackend for Fluid {
 
 /// More particles than anybody draws.
 const MOST_PARTICLES: usize = 10_000_000;
+/// More sub-steps than a frame has.
+const MOST_SUBSTEPS: u64 = 1_000_000_000;
 
 impl Fluid {
     fn take(&mut self, result: &hapflow_fluid_result, loads: Vec<BodyLoad>, bodies: Vec<BodySample>) {
         self.output.loads = loads;
         self.output.bodies = bodies;
         self.output.particles = result.particles as usize;
-        self.output.substeps = result.substeps as usize;
+        // All frames' are summed.
+        self.output.substeps = result.substeps.min(MOST_SUBSTEPS) as usize;
         self.output.max_speed = if result.max_speed.is_finite() { result.max_speed } else { 0.0 };
         self.output.degraded = result.degraded != 0;
     }
@@ -330,13 +330,12 @@ fn taken(
         return Err(format!("step gave result {code}"));
     }
     let loads: Vec<_> = loads.iter().map(load).collect();
-    let states: Vec<_> = states.iter().map(from_c).collect();
     if let Some(n) = loads.iter().position(|load| !(load.force().is_finite() && load.torque.is_finite())) {
         return Err(format!("step gave body {n} a load that is not finite"));
     }
     match states.iter().position(|state| !placed(state)) {
-        Some(n) => Err(format!("step put body {n} nowhere: {:?}", states[n])),
-        None => Ok((loads, states)),
+        Some(n) => Err(format!("step gave body {n} a motion that cannot be: {:?}", from_c(&states[n]))),
+        None => Ok((loads, states.iter().map(from_c).collect())),
     }
 }
 
@@ -348,11 +347,11 @@ fn load(c: &hapflow_fluid_load) -> BodyLoad {
     }
 }
 
-fn placed(state: &BodySample) -> bool {
-    state.position.is_finite()
-        && state.velocity.is_finite()
-        && state.angular_velocity.is_finite()
-        && state.orientation.is_normalized()
+fn placed(state: &hapflow_fluid_sample) -> bool {
+    within(state.position, FARTHEST)
+        && within(state.velocity, FASTEST)
+        && within(state.angular_velocity, FASTEST_TURN)
+        && within([DQuat::from_array(state.orientation).length() - 1.0], UNIT)
 }
 
 impl Drop for Fluid {
@@ -393,7 +392,7 @@ fn from_c(c: &hapflow_fluid_sample) -> BodySample {
     BodySample {
         time: c.time_s,
         position: DVec3::from_array(c.position),
-        orientation: DQuat::from_array(c.orientation),
+        orientation: DQuat::from_array(c.orientation).normalize(),
         velocity: DVec3::from_array(c.velocity),
         angular_velocity: DVec3::from_array(c.angular_velocity),
     }

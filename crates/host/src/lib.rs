@@ -9,6 +9,7 @@ mod failure;
 mod fluid_backend;
 #[rustfmt::skip]
 mod generated;
+mod limits;
 mod plugin;
 
 pub use check::{Finding, check};
