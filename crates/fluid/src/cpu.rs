@@ -9,13 +9,14 @@ use crate::body::{Body, BodyLoad, BodyNow, BodyTables, Medium};
 use crate::emitter::Emitter;
 use crate::grid::Grid;
 use crate::meetings::Meetings;
+use crate::motion::{ContactRule, LONGEST_WAY, Motion, MotionScratch, Step};
 use crate::neighbours::Neighbours;
 use crate::particles::{Newborn, Particles};
 use crate::periodic::Periodic;
 use crate::restack::restack;
 use crate::rigid::Rigid;
 use crate::sleep::{Around, Sleepers};
-use crate::solids::{Meeting, Solids, Walls};
+use crate::solids::{Solids, Walls};
 use crate::solver::dfsph::{Dfsph, Solves, Surroundings};
 use crate::solver::muller::Muller;
 use crate::solver::tension::{Pull, Tension};
@@ -27,10 +28,8 @@ use crate::vector_unit::Arch;
 use crate::wall::WallTable;
 use crate::{BodyConfig, BodyMotion, FluidConfig, InteractionMode, Solver, World, limits, pools};
 use glam::{DVec3, Vec3};
-
-/// Farthest that a particle may go in a sub-step, in spacings: from a quarter behind a wall, where the last stop is, it must
-/// not come past its middle, one behind.
-const LONGEST_WAY: f64 = 0.7;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// How far a particle may go before its neighbours are looked for again, in spacings: the lists are 7 % longer for it.
 const LEEWAY: f32 = 0.03;
@@ -193,6 +192,7 @@ struct Fluid {
     neighbours: Neighbours,
     meetings: Meetings,
     scratch: Scratch,
+    moving: MotionScratch,
     rows: Rows,
     normals: Rows,
     pulls: Vec<Pull>,
@@ -207,25 +207,6 @@ struct Fluid {
     degraded: bool,
     /// The neighbours of the last sub-step are still all that there are.
     known: bool,
-}
-
-/// One sub-step.
-#[derive(Clone, Copy)]
-struct Step {
-    dt: f64,
-    /// How contacts by impulse are met.
-    contact: ContactRule,
-    /// Highest speed a particle may have, m/s.
-    cap: f32,
-    /// Above this the cap is no setting but a rescue, m/s.
-    guard: f32,
-}
-
-#[derive(Clone, Copy)]
-struct ContactRule {
-    /// Distance from a surface at which a particle is stopped, m.
-    distance: f32,
-    restitution: f32,
 }
 
 impl Fluid {
@@ -253,6 +234,7 @@ impl Fluid {
             neighbours: Neighbours::default(),
             meetings: Meetings::default(),
             scratch: Scratch::default(),
+            moving: MotionScratch::default(),
             rows: Rows::new(),
             normals: Rows::new(),
             pulls: Vec::new(),
@@ -536,20 +518,29 @@ impl Fluid {
     /// Finds what has left, aged or broken, and whose image is done with; what has crossed a periodic side comes
     /// in on the other.
     fn mark_dead(&mut self, config: &FluidConfig) {
-        let p = &mut self.particles;
-        let lifetime = config.settings.lifetime as f32;
-        self.dead.clear();
-        for i in 0..p.len() {
-            let position = self.periodic.wrap(p.position(i));
-            p.set_position(i, position);
-            let broken = !(position.is_finite() && p.velocity(i).is_finite());
-            self.degraded |= broken;
-            let at = position.as_dvec3();
-            let gone = self.periodic.has_left(&config.world.bounds, position)
-                || config.world.sinks.iter().any(|s| s.contains(at));
-            let aged = lifetime > 0.0 && p.age[i] > lifetime;
-            self.dead.push(broken || gone || aged || p.is_image(i));
+        if self.periodic.any() {
+            for i in 0..self.particles.len() {
+                let inside = self.periodic.wrap(self.particles.position(i));
+                self.particles.set_position(i, inside);
+            }
         }
+        let (p, periodic, world) = (&self.particles, &self.periodic, &config.world);
+        let lifetime = config.settings.lifetime as f32;
+        let broken = AtomicBool::new(false);
+        let is_dead = |i: usize| {
+            let (position, velocity) = (p.position(i), p.velocity(i));
+            if !(position.is_finite() && velocity.is_finite()) {
+                broken.store(true, Relaxed);
+                return true;
+            }
+            let gone = periodic.has_left(&world.bounds, position)
+                || world.sinks.iter().any(|s| s.contains(position.as_dvec3()));
+            gone || (lifetime > 0.0 && p.age[i] > lifetime) || p.is_image(i)
+        };
+        self.dead.resize(p.len(), false);
+        let each = self.dead.par_iter_mut().with_min_len(1024).enumerate();
+        each.for_each(|(i, dead)| *dead = is_dead(i));
+        self.degraded |= broken.into_inner();
     }
 
     /// Finds who is near whom, and near which solids.
@@ -628,61 +619,31 @@ impl Fluid {
 
     fn integrate(&mut self, config: &FluidConfig, step: &Step) {
         let s = &config.settings;
-        let dt = step.dt as f32;
-        let gravity = s.gravity.as_vec3();
-        let decay = (-s.damping * step.dt).exp() as f32;
-        let solids =
-            Solids { walls: &self.walls, bodies: &self.now, plane: &self.plane, tables: &self.tables };
-        let mass = s.particle_mass() as f32;
-        let longest = (LONGEST_WAY * s.spacing) as f32;
         let looked_up = self.meets_walls() && self.interacts(s.mode);
-        let mut fastest = 0.0_f32;
-        for i in 0..self.particles.len() {
-            let shift = self.shift(i);
-            let p = &mut self.particles;
-            if p.is_image(i) {
-                continue;
-            }
-            p.age[i] += dt;
-            let (position, mut velocity) = (p.position(i), p.velocity(i));
-            if p.held[i] > 0.0 {
-                p.held[i] -= dt;
-            } else {
-                let [x, y, z, _] = self.rows[i];
-                velocity = (velocity + (Vec3::new(x, y, z) + gravity) * dt) * decay;
-            }
-            let speed = velocity.length();
-            if speed > step.cap {
-                velocity *= step.cap / speed;
-                self.degraded |= speed > step.guard;
-            }
-            let way = (velocity * dt + shift).clamp_length_max(longest);
-            let mut state = (position + way, velocity);
-            // Who meets nothing within the support comes to no surface in one sub-step.
-            if !(looked_up && self.meetings.of(i).is_empty()) {
-                let loads = &mut self.step_loads;
-                let touched = touch(&solids, position, &mut state, step.contact, mass, |m, impulse| {
-                    if let (true, Some(body)) = (s.two_way, m.body) {
-                        loads[body].react(impulse / dt, Vec3::ZERO, m.contact.arm);
-                    }
-                });
-                p.held[i] = if touched { 0.0 } else { p.held[i] };
-                // Between two that close in on it a particle would be squirted out at any speed.
-                state.1 = state.1.clamp_length_max(step.cap);
-            }
-            p.set_position(i, state.0);
-            p.set_velocity(i, state.1);
-            fastest = fastest.max(state.1.length());
-        }
-        self.max_speed = if fastest.is_finite() { fastest } else { step.cap };
-    }
-
-    /// What the solver shifts particle `i` by in this sub-step, beside its motion, m.
-    fn shift(&self, i: usize) -> Vec3 {
-        match self.method {
-            Method::Dfsph(_) => self.solves.shift(i),
-            Method::Muller(_) | Method::Wcsph(_) => self.rates.get(i).map_or(Vec3::ZERO, |r| r.shift),
-        }
+        let (rates, solves) = (&self.rates, &self.solves);
+        let prompt = s.solver == Solver::Dfsph;
+        let motion = Motion {
+            step,
+            gravity: s.gravity.as_vec3(),
+            decay: (-s.damping * step.dt).exp() as f32,
+            longest: (LONGEST_WAY * s.spacing) as f32,
+            mass: s.particle_mass() as f32,
+            two_way: s.two_way,
+            rows: &self.rows,
+            shift: |i: usize| {
+                if prompt { solves.shift(i) } else { rates.get(i).map_or(Vec3::ZERO, |r| r.shift) }
+            },
+            solids: Solids {
+                walls: &self.walls,
+                bodies: &self.now,
+                plane: &self.plane,
+                tables: &self.tables,
+            },
+            meetings: looked_up.then_some(&self.meetings),
+        };
+        let moved = motion.run(&mut self.particles, &mut self.moving, &mut self.step_loads);
+        self.degraded |= moved.degraded;
+        self.max_speed = if moved.fastest.is_finite() { moved.fastest } else { step.cap };
     }
 
     fn snapshot(&self, config: &FluidConfig, view: &mut ParticleView) {
@@ -714,47 +675,4 @@ impl Method {
             Solver::Wcsph => Self::Wcsph(Wcsph::new(config)),
         }
     }
-}
-
-/// Stops a particle at all surfaces, and tells of the impulse of each. Returns whether there was any.
-/// A particle that comes from `was` goes through no wall, however far a body that is suddenly there puts it.
-fn touch(
-    solids: &Solids<'_>,
-    was: Vec3,
-    state: &mut (Vec3, Vec3),
-    rule: ContactRule,
-    mass: f32,
-    mut tell: impl FnMut(&Meeting, Vec3),
-) -> bool {
-    let (mut met, mut met_body) = (false, false);
-    solids.visit(state.0, rule.distance, |m| {
-        met = true;
-        met_body |= m.body.is_some();
-        let impulse = stop(state, &m, rule, mass);
-        tell(&m, impulse);
-    });
-    if met_body {
-        // A tool that overlaps a wall must not push water through it.
-        state.0 = solids.walls.hold(was, state.0);
-        let walls = Solids { bodies: &[], ..*solids };
-        walls.visit(state.0, rule.distance, |m| {
-            stop(state, &m, rule, mass);
-        });
-    }
-    met
-}
-
-/// Contact by impulse (thesis: v_a = u_a + (j/m_a) n): takes the approach out of a particle's velocity but for
-/// the share that it keeps, and puts the particle back to the contact distance. Returns the impulse on the
-/// particle, N·s.
-fn stop(state: &mut (Vec3, Vec3), m: &Meeting, rule: ContactRule, mass: f32) -> Vec3 {
-    let n = m.contact.normal;
-    state.0 += (rule.distance - m.contact.distance) * n;
-    let approach = (state.1 - m.contact.velocity).dot(n);
-    if approach >= 0.0 {
-        return Vec3::ZERO;
-    }
-    let j = -(1.0 + rule.restitution) * approach / (1.0 / mass + m.inverse_mass);
-    state.1 += j / mass * n;
-    j * n
 }

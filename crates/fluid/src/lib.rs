@@ -25,6 +25,7 @@ mod limits;
 mod liquid;
 mod meetings;
 mod mesh;
+mod motion;
 mod neighbours;
 mod node_grid;
 mod pair_kernel;

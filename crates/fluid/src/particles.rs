@@ -1,12 +1,16 @@
 //! The particles, as structure of arrays in f32, sorted by grid cell.
 
 use glam::Vec3;
+use rayon::prelude::*;
 
 /// Elements kept readable past the last particle, so that the pair loops may load whole vectors.
 pub(crate) const PAD: usize = 16;
 
 /// Where the padding stands: far from everything, finite.
 const FAR: f32 = 1e6;
+
+/// Columns that last from one sub-step to the next.
+const COLUMNS: usize = 13;
 
 /// Every column has `len() + PAD` entries.
 #[derive(Clone, Debug, Default)]
@@ -46,7 +50,7 @@ pub(crate) struct Particles {
     /// Grows whenever the rows are others or stand elsewhere.
     generation: u64,
     next_id: u32,
-    spare: Vec<f32>,
+    spare: [Vec<f32>; COLUMNS],
     spare_id: Vec<u32>,
 }
 
@@ -103,7 +107,7 @@ impl Particles {
         (self.u[i], self.v[i], self.w[i]) = (v.x, v.y, v.z);
     }
 
-    fn columns(&mut self) -> [&mut Vec<f32>; 13] {
+    fn columns(&mut self) -> [&mut Vec<f32>; COLUMNS] {
         [
             &mut self.x,
             &mut self.y,
@@ -119,6 +123,20 @@ impl Particles {
             &mut self.age,
             &mut self.held,
         ]
+    }
+
+    /// What motion changes of the particles, in runs of up to `length`.
+    pub fn runs(&mut self, length: usize) -> impl IndexedParallelIterator<Item = Run<'_>> {
+        let (len, is_image) = (self.len, &self.is_image);
+        let place = in_runs([&mut self.x[..len], &mut self.y[..len], &mut self.z[..len]], length);
+        let velocity = in_runs([&mut self.u[..len], &mut self.v[..len], &mut self.w[..len]], length);
+        let times = self.age[..len].par_chunks_mut(length).zip(self.held[..len].par_chunks_mut(length));
+        let runs = place.zip(velocity).zip(times).enumerate();
+        runs.map(move |(n, ((place, velocity), (age, held)))| {
+            let first = n * length;
+            let is_image = is_image.get(first..first + age.len()).unwrap_or(&[]);
+            Run { first, place, velocity, age, held, is_image }
+        })
     }
 
     /// Adds particles at the end; the next sort puts them in place.
@@ -164,11 +182,11 @@ impl Particles {
     /// Keeps `order.len()` particles: entry k of every column becomes the old entry `order[k]`.
     pub fn permute(&mut self, order: &[u32]) {
         let mut spare = std::mem::take(&mut self.spare);
-        for column in self.columns() {
+        self.columns().into_par_iter().zip(&mut spare).for_each(|(column, spare)| {
             spare.clear();
             spare.extend(order.iter().map(|&i| column[i as usize]));
-            std::mem::swap(column, &mut spare);
-        }
+            std::mem::swap(column, spare);
+        });
         self.spare = spare;
         self.spare_id.clear();
         self.spare_id.extend(order.iter().map(|&i| self.id[i as usize]));
@@ -249,6 +267,54 @@ impl Particles {
             (self.x[k], self.y[k], self.z[k]) = (FAR, FAR, FAR);
         }
     }
+}
+
+/// Particles that lie together, and what motion changes of them.
+pub(crate) struct Run<'a> {
+    /// The number of the first.
+    pub first: usize,
+    place: [&'a mut [f32]; 3],
+    velocity: [&'a mut [f32]; 3],
+    pub age: &'a mut [f32],
+    pub held: &'a mut [f32],
+    is_image: &'a [bool],
+}
+
+impl Run<'_> {
+    pub fn len(&self) -> usize {
+        self.age.len()
+    }
+
+    pub fn is_image(&self, k: usize) -> bool {
+        self.is_image.get(k).copied().unwrap_or(false)
+    }
+
+    pub fn position(&self, k: usize) -> Vec3 {
+        self.place.each_ref().map(|axis| axis[k]).into()
+    }
+
+    pub fn velocity(&self, k: usize) -> Vec3 {
+        self.velocity.each_ref().map(|axis| axis[k]).into()
+    }
+
+    /// Sets position and velocity.
+    pub fn set(&mut self, k: usize, (position, velocity): (Vec3, Vec3)) {
+        for (axis, value) in self.place.iter_mut().zip(position.to_array()) {
+            axis[k] = value;
+        }
+        for (axis, value) in self.velocity.iter_mut().zip(velocity.to_array()) {
+            axis[k] = value;
+        }
+    }
+}
+
+/// Three columns in runs of up to `length`.
+fn in_runs(
+    [x, y, z]: [&mut [f32]; 3],
+    length: usize,
+) -> impl IndexedParallelIterator<Item = [&mut [f32]; 3]> {
+    let runs = x.par_chunks_mut(length).zip(y.par_chunks_mut(length)).zip(z.par_chunks_mut(length));
+    runs.map(|((x, y), z)| [x, y, z])
 }
 
 fn copy<T: Copy>(images: &[[u32; 2]], rows: &mut [T]) {

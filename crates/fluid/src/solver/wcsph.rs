@@ -37,6 +37,7 @@ use crate::wall::WallTerms;
 use crate::{FluidConfig, Kernel};
 use glam::Vec3;
 use pulp::Simd;
+use rayon::prelude::*;
 
 /// Sub-steps between two looks at the summed density.
 pub(crate) const PACKING_INTERVAL: u64 = 10;
@@ -204,29 +205,41 @@ impl Wcsph {
     /// Takes the pressure over `dt` and the pressure that acts from the rates, and turns shift velocities into
     /// shifts.
     pub fn take_rates(&self, particles: &mut Particles, rates: &mut [Rates], dt: f32) {
-        let c2 = self.sound * self.sound;
         let most = MOST_DAMPING * self.spacing * self.spacing / dt.max(1e-9);
-        for (i, r) in rates.iter_mut().enumerate() {
-            let inside = particles.fill[i] >= FREE_SURFACE && particles.held[i] <= 0.0;
-            let shift = if inside { r.shift * dt } else { Vec3::ZERO };
-            r.shift = shift.clamp_length_max(self.longest_shift);
-            // A shifted particle takes the hydrostatic pressure of its new place.
-            let change =
-                dt * (r.diffusion + particles.slow[i] - c2 * r.divergence) + r.shift.dot(self.gravity);
+        let (n, p) = (rates.len(), particles);
+        let (fill, inner, slow, held) = (&p.fill, &p.inner, &p.slow, &p.held);
+        let laplacian = (&mut p.lx[..n], &mut p.ly[..n], &mut p.lz[..n]).into_par_iter();
+        let each =
+            (&mut p.p[..n], &mut p.aux[..n], laplacian, rates).into_par_iter().with_min_len(1024).enumerate();
+        each.for_each(|(i, (p, acting, laplacian, rates))| {
+            rates.shift = self.shift(rates, dt, fill[i] >= FREE_SURFACE && held[i] <= 0.0);
             // Spray that has been squeezed lets go at once: a drop splashes on a wall and does not bounce.
-            let lets_go = particles.fill[i] < SPRAY && r.divergence > 0.0;
-            let free = lets_go || particles.held[i] > 0.0;
-            // No more than twice the density at rest bears: what is squeezed without end, between solids or by a cap
-            // on speeds, would else load them without end.
-            let p = if free { 0.0 } else { (particles.p[i] + change).clamp(self.floor, c2) };
-            particles.p[i] = p;
-            let rough = (QUIET_SHARE + self.rough * r.laplacian.length()).min(1.0);
+            let lets_go = fill[i] < SPRAY && rates.divergence > 0.0;
+            let free = lets_go || held[i] > 0.0;
+            *p = if free { 0.0 } else { self.pressure_after(*p, rates, slow[i], dt) };
+            let rough = (QUIET_SHARE + self.rough * rates.laplacian.length()).min(1.0);
             let damper = (self.damper * (1.0 + QUIET_DAMPING * (1.0 - rough))).min(most);
-            let acting = p - damper * r.divergence;
-            particles.aux[i] = acting.clamp(self.floor, 2.0 * c2) + self.background;
-            let l = r.laplacian * (particles.inner[i] * rough);
-            (particles.lx[i], particles.ly[i], particles.lz[i]) = (l.x, l.y, l.z);
-        }
+            let damped = *p - damper * rates.divergence;
+            *acting = damped.clamp(self.floor, 2.0 * self.sound * self.sound) + self.background;
+            let l = rates.laplacian * (inner[i] * rough);
+            (*laplacian.0, *laplacian.1, *laplacian.2) = (l.x, l.y, l.z);
+        });
+    }
+
+    /// The shift of a particle over `dt`, m.
+    fn shift(&self, rates: &Rates, dt: f32, inside: bool) -> Vec3 {
+        let shift = if inside { rates.shift * dt } else { Vec3::ZERO };
+        shift.clamp_length_max(self.longest_shift)
+    }
+
+    /// What a pressure becomes over `dt`, the shift taken.
+    fn pressure_after(&self, p: f32, rates: &Rates, slow: f32, dt: f32) -> f32 {
+        let c2 = self.sound * self.sound;
+        // A shifted particle takes the hydrostatic pressure of its new place.
+        let change = dt * (rates.diffusion + slow - c2 * rates.divergence) + rates.shift.dot(self.gravity);
+        // No more than twice the density at rest bears: what is squeezed without end, between solids or by a cap
+        // on speeds, would else load them without end.
+        (p + change).clamp(self.floor, c2)
     }
 
     /// Place of a particle in supports.
