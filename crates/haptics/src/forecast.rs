@@ -44,9 +44,14 @@ impl<const TICKS: usize> Forecast<TICKS> {
         self.count = (self.count + 1).min(TICKS);
     }
 
+    /// Whether it has seen the hand for long enough to know how it moves.
+    pub fn knows(&self) -> bool {
+        self.count == TICKS
+    }
+
     /// The tool at `time_s`; after 0.12 s without news it rests. `bend` is the share of the acceleration that goes on, 0..1.
     pub fn at(&self, time_s: f64, bend: f64) -> ToolState {
-        if self.count < TICKS {
+        if !self.knows() {
             return ToolState { velocity: DVec3::ZERO, ..self.newest };
         }
         let last_s = self.times_s[(self.next + TICKS - 1) % TICKS];

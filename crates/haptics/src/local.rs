@@ -100,6 +100,13 @@ struct Part {
     added_mass: f64,
 }
 
+impl Part {
+    fn is_finite(&self) -> bool {
+        let vectors = [self.force, self.law, self.acceleration];
+        vectors.iter().all(|v| v.is_finite()) && self.added_mass.is_finite()
+    }
+}
+
 /// F = β L − m a: β and m for which the fluid's force was the law's and the added mass's in the last time, by least squares.
 /// m is near its theory while there is little acceleration; a viscous fluid answers with more.
 #[derive(Debug, Default)]
@@ -113,8 +120,12 @@ struct Fit {
 }
 
 impl Fit {
-    /// Takes a frame and gives β, times the share of the force that both explain, and m.
+    /// Takes a frame and gives β, times the share of the force that both explain, and m. What is no number is not kept: it would
+    /// stay for ever.
     fn take(&mut self, part: &Part, frame_s: f64) -> (f64, f64) {
+        if !part.is_finite() {
+            return (0.0, 0.0);
+        }
         let share = 1.0 - (-frame_s / FIT_S).exp();
         // What is looked for is by how much the mass is more than in theory.
         let (f, l, a) = (part.force + part.acceleration * part.added_mass, part.law, part.acceleration);
@@ -157,4 +168,27 @@ fn acceleration(frame: &FrameEnd<'_>) -> DVec3 {
 /// Mean of a law over a path, N.
 fn mean_force(law: &Law, path: &[ToolState]) -> DVec3 {
     path.iter().map(|tool| law.at(tool)).sum::<DVec3>() / path.len().max(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_of_no_numbers_is_forgotten() {
+        let part = |force: f64| Part {
+            force: DVec3::Y * force,
+            law: DVec3::Y,
+            acceleration: DVec3::X,
+            added_mass: 0.01,
+        };
+        let (mut spoilt, mut sound) = (Fit::default(), Fit::default());
+        for force in [1.0, 2.0, f64::NAN, f64::INFINITY, 1.5] {
+            let answer = spoilt.take(&part(force), 0.01);
+            if force.is_finite() {
+                assert_eq!(answer, sound.take(&part(force), 0.01));
+            }
+        }
+        assert!(spoilt.take(&Part { added_mass: f64::NAN, ..part(1.0) }, 0.01).0 == 0.0);
+    }
 }

@@ -3,6 +3,7 @@
 use crate::added_mass::AddedMass;
 use crate::passivity::Passivity;
 use crate::{CouplingKind, Forecast, LocalModel, ToolState, Wrench};
+use glam::DVec3;
 
 /// Shortest time over which a new model is blended in, s: a fast fluid is the mean over little time, and noisy.
 const BLEND_S: f64 = 1.0 / 60.0;
@@ -63,7 +64,13 @@ impl Rendering {
     ) -> Wrench {
         let Some(hand) = &mut self.hand else { return model.evaluate(tool) * scale };
         hand.take(time_s, tool);
-        let smooth = hand.at(time_s + AHEAD_S, 1.0);
+        // At the start and after a jump, until it is known how the hand moves, the tool as it is, and nothing goes along.
+        let smooth = if hand.knows() {
+            hand.at(time_s + AHEAD_S, 1.0)
+        } else {
+            self.carried = AddedMass::default();
+            *tool
+        };
         let acceleration = self.carried.follow(&smooth, time_s);
         if fresh {
             self.take(model, &smooth, time_s);
@@ -90,6 +97,11 @@ impl Rendering {
         Wrench { force, ..wanted }
     }
 
+    /// Force that the coupling itself added to that of the newest model at the last tick, N.
+    pub fn own_force(&self) -> DVec3 {
+        self.passivity.force()
+    }
+
     /// Energy that the coupling itself has given to the hand beyond what it took since its lowest, J.
     pub fn own_energy_j(&self) -> f64 {
         self.passivity.rise_j()
@@ -112,5 +124,40 @@ impl Rendering {
         let share = (time_s + AHEAD_S - self.model.published_s) / Self::blend_s(self.model.frame_s);
         // An age that is no number leaves nothing over.
         if share < 1.0 { 1.0 - share.max(0.0) } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The water that goes along is not torn with the tool to where the device suddenly says that it is.
+    #[test]
+    fn a_jump_does_not_pull_at_what_goes_along() {
+        let mut rendering = Rendering::new(CouplingKind::Local);
+        let model = LocalModel { frame: 1, frame_s: 0.01, added_mass: 0.05, ..LocalModel::default() };
+        for n in 0..200 {
+            let place = if n < 100 { DVec3::ZERO } else { DVec3::X * 0.3 };
+            let force = rendering.tick(&model, n == 0, &ToolState::at(place), f64::from(n) * 1e-3, 1.0).force;
+            assert_eq!(force, DVec3::ZERO, "tick {n}");
+        }
+    }
+
+    /// Before it knows how the hand moves, it does not take it to be at rest: damping would be missing.
+    #[test]
+    fn damping_acts_from_the_first_tick_on() {
+        let mut rendering = Rendering::new(CouplingKind::Local);
+        let node = crate::LawNode {
+            force: glam::Vec3::ZERO,
+            by_velocity: glam::Mat3::from_diagonal(glam::Vec3::splat(-2.0)),
+        };
+        let law = crate::Law::tabulate(DVec3::ZERO, DVec3::ZERO, 0.01, |_| node);
+        let model = LocalModel { frame: 1, frame_s: 0.01, law, ..LocalModel::default() };
+        for n in 0..30 {
+            let time_s = f64::from(n) * 1e-3;
+            let tool = ToolState { velocity: DVec3::X * 0.1, ..ToolState::at(DVec3::X * 0.1 * time_s) };
+            let force = rendering.tick(&model, n == 0, &tool, time_s, 1.0).force;
+            assert!((force.x + 0.2).abs() < 1e-6, "tick {n}: {force}");
+        }
     }
 }
