@@ -1,6 +1,6 @@
 //! What people may write on the command line.
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -30,6 +30,7 @@ Examples:
   hapflow scenes --settings                   every setting with its unit, range and default
   hapflow validate jet-plate --set speed=2    the fluid's forces against their known answers
   hapflow stress --trials 2000                shake random scenes, and say what does not hold
+  hapflow stress felt                         shake hand, device and fluid, and see that the force is safe
   hapflow bench skip                          what is paid for what is not used
   hapflow doctor                              check this machine, and say what to do";
 
@@ -181,6 +182,9 @@ pub struct ValidateArgs {
 /// Arguments of `stress`.
 #[derive(Debug, Args)]
 pub struct StressArgs {
+    /// What is tried: the fluid, or the force that a hand feels while devices, fluids and people do what they must not.
+    #[arg(value_name = "WHAT", default_value = "fluid")]
+    pub what: Stressed,
     /// How many trials.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     pub trials: u64,
@@ -188,11 +192,20 @@ pub struct StressArgs {
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub seed: u64,
     /// Instead, find the longest steps at which a tank stays calm, against stiffness and viscosity, and draw them.
-    #[arg(long, value_name = "FILE.png", conflicts_with = "json")]
+    #[arg(long, value_name = "FILE.png", conflicts_with_all = ["json", "what"])]
     pub map: Option<PathBuf>,
     /// Print one line of JSON for each trial (trial, seed, pass, reason, repeat) instead of those that fail.
     #[arg(long)]
     pub json: bool,
+}
+
+/// What `stress` tries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Stressed {
+    /// Random scenes.
+    Fluid,
+    /// Random hands.
+    Felt,
 }
 
 /// The words after `falcon`. Those on files print CSV and nothing else: the file's columns, and those that are added.

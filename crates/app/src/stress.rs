@@ -1,10 +1,10 @@
 //! `hapflow stress`: random scenes that are shaken by all means, and what came of each.
 
-use crate::cli::StressArgs;
+use crate::cli::{StressArgs, Stressed};
 use crate::draw::chart::{self, Chart, Series};
 use crate::run::Failure;
 use hapflow_fluid::Solver;
-use hapflow_validation::stress::{self, Place, Verdict};
+use hapflow_validation::stress::{self, Place, Subject, Verdict};
 use std::io::Write;
 use std::path::Path;
 
@@ -27,7 +27,11 @@ fn trials(args: &StressArgs) -> bool {
     let seeds: Vec<u64> = (0..args.trials).map(|k| args.seed.wrapping_add(k)).collect();
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let mut failed = 0;
-    stress::run(&seeds, threads, |verdict| {
+    let subject = match args.what {
+        Stressed::Fluid => Subject::Fluid,
+        Stressed::Felt => Subject::Felt,
+    };
+    stress::run(subject, &seeds, threads, |verdict| {
         failed += u64::from(!verdict.pass());
         tell(args, verdict);
         let done = verdict.trial + 1;

@@ -58,7 +58,7 @@ pub use scene::{
 pub use scene_device::{open_device, open_device_on};
 pub use scene_file::{parse, write};
 pub use servo::{ServoReport, ServoUnit};
-pub use session::{BodyList, Drive, Session, SessionOptions};
+pub use session::{BodyList, Drive, Session, SessionOptions, open_backend};
 pub use threads::{FluidPace, SERVO_PRIORITY, ServoPace};
 pub use tick_times::TickTimes;
 pub use value::Value;

@@ -1,10 +1,11 @@
 //! What a session takes from outside of hapflow in place of its own parts, by name.
 
 use crate::SceneError;
-use crate::scene::{BackendKind, Scene};
+use crate::scene::Scene;
 use crate::scene_device::open_own;
+use crate::session::open_backend;
 use hapflow_devices::{DeviceError, HapticDevice};
-use hapflow_fluid::{AnalyticJet, CpuBackend, FluidBackend, FluidConfig, FluidError};
+use hapflow_fluid::{FluidBackend, FluidConfig, FluidError};
 use hapflow_haptics::{Coupling, CouplingKind, ToolState};
 use hapflow_realtime::Clock;
 use std::collections::BTreeMap;
@@ -53,10 +54,7 @@ impl Parts {
         config: &FluidConfig,
     ) -> Result<Box<dyn FluidBackend>, SceneError> {
         let Some(make) = find("plugin.backend", &self.backends, &scene.plugin.backend)? else {
-            return Ok(match scene.run.backend {
-                BackendKind::Cpu => Box::new(CpuBackend::new(config)?),
-                BackendKind::AnalyticJet => Box::new(AnalyticJet::new(config)?),
-            });
+            return Ok(open_backend(scene, config)?);
         };
         if scene.coupling() == CouplingKind::Local {
             return Err(SceneError::BadValue {

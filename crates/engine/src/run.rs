@@ -197,6 +197,7 @@ pub fn real_time(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, Scen
         clock,
         tape: 8192,
         parts: options.parts,
+        ..SessionOptions::hosted()
     };
     let mut session = Session::open(scene, session_options)?;
     let Some(mut tape) = session.take_tape(0) else {

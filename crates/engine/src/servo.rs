@@ -50,6 +50,8 @@ pub struct ServoReport {
     pub frame: u64,
     /// Age of its data, s.
     pub age_s: f64,
+    /// Force that coupling `local` itself adds to that of its newest model, N.
+    pub own: DVec3,
     /// Energy that coupling `local` itself, not the fluid, has given beyond what it took since its lowest, J.
     pub own_energy_j: f64,
     /// Force that was taken off so that it gives no more, N.
@@ -135,6 +137,7 @@ impl ServoUnit {
             faults: self.gate.faults(),
             frame,
             age_s: age.age_s,
+            own: self.rendering.own_force(),
             own_energy_j: self.rendering.own_energy_j(),
             held_back_n: self.rendering.held_back_n(),
         };
@@ -148,6 +151,11 @@ impl ServoUnit {
     /// The newest tick.
     pub fn newest(&self) -> &ServoReport {
         &self.newest
+    }
+
+    /// The newest model that it has.
+    pub fn model(&self) -> &LocalModel {
+        self.model.get()
     }
 
     /// Raises a fault from outside the tick: a lost device, a panic.

@@ -15,7 +15,10 @@ use crate::touch::{SolidPaths, Touch};
 use crate::{SceneError, Value};
 use glam::DVec3;
 use hapflow_devices::{DeviceError, HapticDevice};
-use hapflow_fluid::{BodyConfig, BodyLoad, BodySample, ParticleView, Surroundings};
+use hapflow_fluid::{
+    AnalyticJet, BodyConfig, BodyLoad, BodySample, CpuBackend, FluidBackend, FluidConfig, FluidError,
+    ParticleView, Surroundings,
+};
 use hapflow_haptics::{Filter, LocalModel, Rendering, SafetyGate, ToolState, Touching, Wrench};
 use hapflow_realtime::{
     Clock, HostClock, LatestReader, LatestWriter, RealtimeStatus, RingConsumer, SharedFlags, latest, ring,
@@ -40,6 +43,9 @@ pub struct SessionOptions {
     pub fluid_drive: Drive,
     /// Worker threads of the fluid; 0 takes all cores but one, and of two both.
     pub threads: usize,
+    /// A fluid of the caller's, made of the scene's [`fluid_config`](Scene::fluid_config); none takes the one that the scene
+    /// names.
+    pub backend: Option<Box<dyn FluidBackend>>,
     /// The devices of an owned servo, in the order of the scene's tools: a thread for each.
     pub devices: Vec<Box<dyn HapticDevice>>,
     /// The clock of owned threads. An owned fluid under a host's servo keeps the servo's time instead: its
@@ -65,6 +71,7 @@ impl SessionOptions {
             servo_drive: Drive::Host,
             fluid_drive: Drive::Host,
             threads: 0,
+            backend: None,
             devices: Vec::new(),
             clock: Arc::new(hapflow_realtime::RealClock::new()),
             tape: 0,
@@ -128,7 +135,7 @@ impl Session {
     ///
     /// # Errors
     /// A scene that cannot be run, an owned servo without a device, or a thread that could not be started.
-    pub fn open(scene: &Scene, options: SessionOptions) -> Result<Self, SceneError> {
+    pub fn open(scene: &Scene, mut options: SessionOptions) -> Result<Self, SceneError> {
         scene.check()?;
         let threads = if options.threads == 0 { default_threads() } else { options.threads };
         let config = scene.fluid_config(threads);
@@ -148,8 +155,12 @@ impl Session {
             |b: &BodyConfig| BodyReport { state: BodySample::at(b.position), load: BodyLoad::default() };
         let (bodies_in, bodies) = latest(config.world.bodies.iter().map(at_rest).collect::<Vec<_>>());
         let (mover, poses) = obstacle_poses(scene.obstacles.len());
+        let backend = match options.backend.take() {
+            Some(backend) => backend,
+            None => options.parts.open_backend(scene, &config)?,
+        };
         let fluid = FluidUnit {
-            backend: options.parts.open_backend(scene, &config)?,
+            backend,
             obstacles: Obstacles::new(
                 poses,
                 &config.world.bodies[lanes.len()..][..scene.obstacles.len()],
@@ -484,4 +495,15 @@ fn open_tool(
     let lane = ToolLane::new(parts.make_coupling(scene)?, path_out, model_in, tool.position);
     let ends = ToolEnds { servo: Some(servo), report, touching, tape };
     Ok(OpenedTool { ends, lane, settings: settings_in, solids })
+}
+
+/// The fluid that `scene` names, of `config`.
+///
+/// # Errors
+/// What the fluid refuses.
+pub fn open_backend(scene: &Scene, config: &FluidConfig) -> Result<Box<dyn FluidBackend>, FluidError> {
+    Ok(match scene.run.backend {
+        BackendKind::Cpu => Box::new(CpuBackend::new(config)?),
+        BackendKind::AnalyticJet => Box::new(AnalyticJet::new(config)?),
+    })
 }

@@ -15,6 +15,8 @@ mod stir;
 mod truth;
 mod ways;
 
+pub(crate) use closed_loop::ClosedLoop;
+
 use crate::Case;
 
 /// The cases, in the order of the table.

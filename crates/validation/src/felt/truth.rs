@@ -3,11 +3,8 @@
 use super::bench::in_parallel;
 use crate::{Setup, ValidationError};
 use glam::DVec3;
-use hapflow_engine::{BackendKind, Scene, run::TICK_S};
-use hapflow_fluid::{
-    AnalyticJet, BodyDrive, BodyMotion, BodySample, CpuBackend, FluidBackend, FluidConfig, FluidError,
-    FrameInput,
-};
+use hapflow_engine::{BackendKind, Scene, open_backend, run::TICK_S};
+use hapflow_fluid::{BodyDrive, BodyMotion, BodySample, FluidBackend, FluidConfig, FluidError, FrameInput};
 
 /// By how much longer than the last the fluid of each seed has run before, s: about a golden share of the time between
 /// two layers of a jet, so that no two seeds agree.
@@ -68,10 +65,7 @@ fn replay_seed(
 ) -> Result<Vec<DVec3>, FluidError> {
     let mut config = config.clone();
     config.world.seed = seed as u32;
-    let mut fluid: Box<dyn FluidBackend> = match scene.run.backend {
-        BackendKind::Cpu => Box::new(CpuBackend::new(&config)?),
-        BackendKind::AnalyticJet => Box::new(AnalyticJet::new(&config)?),
-    };
+    let mut fluid = open_backend(scene, &config)?;
     let start = path.first().copied().unwrap_or_default();
     if seed > 0 {
         step(&mut *fluid, SEED_S * seed as f64, [start, start]);

@@ -8,6 +8,7 @@
 mod crowd;
 mod dice;
 mod draw;
+mod felt;
 mod judge;
 mod ledger;
 mod map;
@@ -21,9 +22,48 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc;
 
+/// What is tried.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Subject {
+    /// The fluid.
+    #[default]
+    Fluid,
+    /// What a hand feels.
+    Felt,
+}
+
+impl Subject {
+    fn run(self, seed: u64) -> Result<(), String> {
+        match self {
+            Self::Fluid => trial::run(seed),
+            Self::Felt => felt::run(seed),
+        }
+    }
+
+    /// Words of the command that tries it.
+    const fn command(self) -> &'static str {
+        match self {
+            Self::Fluid => "hapflow stress",
+            Self::Felt => "hapflow stress felt",
+        }
+    }
+
+    /// Seeds of its trials that failed once, and must not again.
+    pub fn failed_once(self) -> Vec<u64> {
+        let text = match self {
+            Self::Fluid => include_str!("../../stress-seeds.txt"),
+            Self::Felt => include_str!("../../stress-felt-seeds.txt"),
+        };
+        let lines = text.lines().map(|l| l.split('#').next().unwrap_or_default().trim());
+        lines.filter_map(|l| l.parse().ok()).collect()
+    }
+}
+
 /// What came of a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
+    /// What was tried.
+    pub subject: Subject,
     /// Its number in this run, from 0.
     pub trial: u64,
     /// Its seed, which alone makes it what it is.
@@ -40,7 +80,7 @@ impl Verdict {
 
     /// The command that repeats the trial.
     pub fn repeat(&self) -> String {
-        format!("hapflow stress --trials 1 --seed {}", self.seed)
+        format!("{} --trials 1 --seed {}", self.subject.command(), self.seed)
     }
 
     /// One line of JSON.
@@ -55,22 +95,15 @@ impl Verdict {
     }
 }
 
-/// Seeds of trials that failed once, and must not again.
-pub fn failed_once() -> Vec<u64> {
-    let text = include_str!("../../stress-seeds.txt");
-    let lines = text.lines().map(|l| l.split('#').next().unwrap_or_default().trim());
-    lines.filter_map(|l| l.parse().ok()).collect()
-}
-
-/// Runs the trial of `seed`, as number `trial`.
-pub fn attempt(trial: u64, seed: u64) -> Verdict {
-    let outcome = catch_unwind(AssertUnwindSafe(|| trial::run(seed)));
+/// Runs the trial of `subject` with `seed`, as number `trial`.
+pub fn attempt(subject: Subject, trial: u64, seed: u64) -> Verdict {
+    let outcome = catch_unwind(AssertUnwindSafe(|| subject.run(seed)));
     let reason = outcome.unwrap_or_else(|_| Err("it panicked".into())).err();
-    Verdict { trial, seed, reason }
+    Verdict { subject, trial, seed, reason }
 }
 
-/// Runs the trials of all `seeds` on so many `threads`; `tell` hears of each in order.
-pub fn run(seeds: &[u64], threads: usize, mut tell: impl FnMut(&Verdict)) {
+/// Runs the trials of `subject` with all `seeds` on so many `threads`; `tell` hears of each in order.
+pub fn run(subject: Subject, seeds: &[u64], threads: usize, mut tell: impl FnMut(&Verdict)) {
     let (next, (to, from)) = (AtomicU64::new(0), mpsc::channel());
     std::thread::scope(|scope| {
         for _ in 0..threads.max(1) {
@@ -78,7 +111,7 @@ pub fn run(seeds: &[u64], threads: usize, mut tell: impl FnMut(&Verdict)) {
             scope.spawn(move || {
                 while let k = next.fetch_add(1, Ordering::Relaxed)
                     && let Some(&seed) = seeds.get(k as usize)
-                    && to.send(attempt(k, seed)).is_ok()
+                    && to.send(attempt(subject, k, seed)).is_ok()
                 {}
             });
         }
