@@ -1,5 +1,5 @@
-// A haptic device as a plugin: a hand that bobs under the origin, 1 mm up and down twice a second. A real one would talk to
-// its machine in read and write, which hapflow calls at 1 kHz and which may wait for nothing but that.
+// A haptic device as a plugin: a hand that bobs about where the tool starts, 1 mm up and down twice a second. A real one would
+// talk to its machine in read and write, which hapflow calls at 1 kHz and which may wait for nothing but that.
 //
 //     c++ -std=c++17 -O2 -shared -fPIC -Iinclude examples/plugins/bobbing_device.cpp -o libbobbing_device.so
 //     hapflow run tap --plugin ./libbobbing_device.so

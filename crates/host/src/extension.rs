@@ -127,14 +127,15 @@ impl Library {
 /// # Errors
 /// A word that no folder has.
 pub fn find(name: &str, path: Option<&OsStr>) -> Result<PathBuf, PluginError> {
+    // With a folder before it, or the system would look where its own libraries are.
+    let here = Path::new(".");
     let given = Path::new(name);
     if given.components().count() > 1 || given.extension().is_some() {
-        // With a folder before it, or the system would look where its own libraries are.
-        return Ok(Path::new(".").join(given));
+        return Ok(here.join(given));
     }
     let file = format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
     let folders: Vec<PathBuf> = path.map(|path| std::env::split_paths(path).collect()).unwrap_or_default();
-    let mut files = folders.iter().map(|folder| folder.join(&file));
+    let mut files = folders.iter().map(|folder| here.join(folder).join(&file));
     files.find(|file| file.is_file()).ok_or_else(|| {
         let folders: Vec<_> = folders.iter().map(|f| f.display().to_string()).collect();
         let searched = if folders.is_empty() { "which is not set".into() } else { folders.join(", ") };
