@@ -6,9 +6,9 @@
  *
  * What holds for the functions of all tables of plugins:
  * - Each says which thread of hapflow calls it: [main], before a run; [fluid], once a fluid frame, which may take
- *   milliseconds; [servo], at 1 kHz, which must be wait-free but for a device's own transfer. They are called in one thread
- *   at a time for what was made, and need not be able to do more; the first call in each comes after the last in the other.
- *   What ends something is called in any of them.
+ *   milliseconds; [servo], at 1 kHz, which must be wait-free but for a device's own transfer. For what was made they
+ *   are called by one thread at a time: calls of one are over, and their memory is seen, before those of another begin. What
+ *   ends something is called by any of them.
  * - They must return, and let no exception out. They run in hapflow's process: what they break is broken.
  * - What is pointed to lasts for the call, and is not null. What a plugin is given begins with a size where it may grow: a
  *   newer hapflow gives more.
