@@ -3,7 +3,7 @@
 
 mod c_support;
 
-use c_support::{Variant, compile, library, scratch};
+use c_support::{Variant, compile, library, root, scratch};
 use hapflow_host::{Plugin, check};
 use std::ffi::OsStr;
 use std::fs;
@@ -40,6 +40,17 @@ fn libhapflow_holds_and_is_not_fresh_a_second_time() {
         second.len() == 1 && second[0].1.contains("before a version was agreed on: result 0, must be -2"),
         "{second:?}"
     );
+}
+
+#[test]
+fn the_report_in_the_documents_has_these_findings() {
+    let text = fs::read_to_string(root().join("docs/cpp.md")).unwrap();
+    let (_, report) = text.split_once("```text\nok ").unwrap();
+    let report = format!("ok {}", report.split_once("\n```").unwrap().0);
+    let told: Vec<_> = report.lines().map(|line| line.split_whitespace().nth(1).unwrap()).collect();
+    let mut found = Vec::new();
+    check(Plugin::load(&library(Variant::Shipped)).unwrap(), |finding| found.push(finding.name));
+    assert_eq!(told, found);
 }
 
 #[test]
