@@ -12,7 +12,7 @@ use crate::threads::{FluidPace, FluidThread, ServoPace, ServoThread};
 use crate::tick_times::TickTimes;
 use crate::tool_lane::ToolLane;
 use crate::touch::{SolidPaths, Touch};
-use crate::{SceneError, Value};
+use crate::{BackendKind, SceneError, Value};
 use glam::DVec3;
 use hapflow_devices::{DeviceError, HapticDevice};
 use hapflow_fluid::{

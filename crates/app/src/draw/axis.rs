@@ -1,5 +1,8 @@
 //! A scale along one side of a chart.
 
+/// Below this many decades a logarithmic scale is nearly even, and so are its ticks.
+const WITHIN: f64 = 0.5;
+
 /// Range of values along a side, and where its ticks are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Axis {
@@ -49,8 +52,13 @@ impl Axis {
         (0..=count).map(|i| (first + i as f64) * self.step).collect()
     }
 
-    /// Logarithms of 1 to 9 in each decade, of fewer of them where decades are narrow.
+    /// Logarithms of 1 to 9 in each decade, of fewer of them where decades are narrow, and of any round numbers within one.
     fn round_numbers(&self) -> Vec<f64> {
+        if self.high - self.low < WITHIN {
+            let [low, high] = [self.low, self.high].map(|v| 10.0_f64.powf(v));
+            let even = Self { low, high, step: step((high - low) / 6.0), log: false };
+            return even.ticks().into_iter().map(f64::log10).collect();
+        }
         let factors: &[f64] = match self.high - self.low {
             wide if wide > 4.0 => &[1.0],
             wide if wide > 0.7 => &[1.0, 2.0, 5.0],
@@ -64,8 +72,9 @@ impl Axis {
     /// How the tick at `value` is written.
     pub fn text(&self, value: f64) -> String {
         if self.log {
-            let places = (-(value + 1e-9).floor()).clamp(0.0, 9.0) as usize;
-            return format!("{:.places$}", 10.0_f64.powf(value));
+            let places = (2.0 - (value + 1e-9).floor()).clamp(0.0, 9.0) as usize;
+            let text = format!("{:.places$}", 10.0_f64.powf(value));
+            return if places > 0 { text.trim_end_matches('0').trim_end_matches('.').into() } else { text };
         }
         let places = (-self.step.log10() - 1e-9).ceil().clamp(0.0, 9.0) as usize;
         let text = format!("{:.*}", places, if value.abs() < 1e-6 * self.step { 0.0 } else { value });
@@ -106,7 +115,8 @@ mod tests {
             let axis = Axis::holding([low.log10(), high.log10()].into_iter(), 0.0, 6.0).logarithmic(true);
             axis.ticks().into_iter().map(|v| axis.text(v)).collect()
         };
-        assert_eq!(texts(0.009, 0.02), ["0.009", "0.01", "0.02"]);
+        assert_eq!(texts(0.009, 0.04), ["0.009", "0.01", "0.02", "0.03", "0.04"]);
+        assert_eq!(texts(14.2, 18.3), ["15", "16", "17", "18"]);
         assert_eq!(texts(0.0015, 0.11), ["0.002", "0.005", "0.01", "0.02", "0.05", "0.1"]);
         assert_eq!(texts(1e-5, 30.0), ["0.00001", "0.0001", "0.001", "0.01", "0.1", "1", "10"]);
     }

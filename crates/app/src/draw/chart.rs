@@ -29,17 +29,24 @@ pub struct Series {
     pub colour: Option<[u8; 3]>,
     /// Whether it is drawn thin and pale, behind the others.
     pub faint: bool,
+    /// Whether its points are marked.
+    pub marked: bool,
 }
 
 impl Series {
     /// A curve named `label`, in a colour of the palette.
     pub fn new(label: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
-        Self { label: label.into(), points, colour: None, faint: false }
+        Self { label: label.into(), points, colour: None, faint: false, marked: false }
     }
 
     /// The same curve in `colour`.
     pub fn coloured(self, colour: [u8; 3]) -> Self {
         Self { colour: Some(colour), ..self }
+    }
+
+    /// The same curve with its points marked.
+    pub fn marked(self) -> Self {
+        Self { marked: true, ..self }
     }
 
     /// The same curve, thin and pale behind the others.
@@ -234,7 +241,11 @@ impl<'a> Panel<'a> {
         let mut stroke =
             Stroke::new(left as i64, top as i64, (right - left) as usize, (bottom - top) as usize);
         let points = series.points.iter().map(|p| self.chart.place(p));
-        stroke.line(points.map(|p| [self.across(p[0]), self.up(p[1])]), self.thick(series));
+        let places: Vec<_> = points.map(|p| [self.across(p[0]), self.up(p[1])]).collect();
+        stroke.line(places.iter().copied(), self.thick(series));
+        for &place in places.iter().filter(|_| series.marked) {
+            stroke.line(std::iter::once(place), 0.7 * self.sheet.size);
+        }
         stroke.ink(image, colour, shade(series));
     }
 }

@@ -29,7 +29,7 @@ fn panel(rows: &[&Row]) -> Chart {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let m = &rows[0].measure;
     let order = rows[0].order.map_or(String::new(), |order| format!(", order {order:.1}"));
-    let mut series = vec![Series::new("error", points.clone())];
+    let mut series = vec![Series::new("error", points.clone()).marked()];
     if let Some(goal) = m.goal {
         let line = points.iter().map(|p| [p[0], goal]).collect::<Vec<_>>();
         series.push(Series::new("goal", line));
