@@ -179,7 +179,7 @@ impl Work for Find<'_> {
             for i in block {
                 if !p.is_image(i) {
                     end = candidates.pick(unit, p.position(i).into(), reach * reach, all, end);
-                    end = fill_up(all, end, p.len() as u32);
+                    end = fill_up(all, end, U::F32_LANES, p.len() as u32);
                 }
                 ends.push(end as u32);
             }
@@ -189,8 +189,8 @@ impl Work for Find<'_> {
 
 /// Fills the last vector of a list up with `nobody`. Returns the list's end.
 #[inline(always)]
-fn fill_up(all: &mut [u32], end: usize, nobody: u32) -> usize {
-    let whole = end.next_multiple_of(WIDEST);
+fn fill_up(all: &mut [u32], end: usize, lanes: usize, nobody: u32) -> usize {
+    let whole = end.next_multiple_of(lanes);
     all[end..whole].fill(nobody);
     whole
 }

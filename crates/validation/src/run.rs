@@ -29,8 +29,8 @@ pub(crate) struct Run {
     view: ParticleView,
     particles: usize,
     steps: usize,
-    /// Steps in a millisecond.
-    per_ms: usize,
+    /// Length of a step, s.
+    dt: f64,
     /// Bodies at the end of the last step.
     bodies: Vec<BodySample>,
 }
@@ -56,20 +56,21 @@ impl Run {
         let mut fluid = CpuBackend::new(&filling).map_err(refused)?;
         fluid.configure(&config).map_err(refused)?;
         let limit = step_limits(&config, config.reference_speed()).shortest();
-        let per_ms = (1e-3 / limit).ceil().max(1.0) as usize;
+        // Whole steps in a millisecond, where it has room for more than one.
+        let dt = if limit < 1e-3 { 1e-3 / (1e-3 / limit).ceil() } else { limit };
         let bodies = config.world.bodies.iter().map(|b| BodySample::at(b.position)).collect();
         let view = ParticleView::default();
-        Ok(Self { fluid, config, view, particles: 0, steps: 0, per_ms, bodies })
+        Ok(Self { fluid, config, view, particles: 0, steps: 0, dt, bodies })
     }
 
     /// Length of a step, s.
     pub fn dt(&self) -> f64 {
-        1e-3 / self.per_ms as f64
+        self.dt
     }
 
-    /// Steps in a millisecond.
+    /// Steps in a millisecond, or one if they are longer.
     pub fn steps_per_ms(&self) -> usize {
-        self.per_ms
+        (1e-3 / self.dt).round().max(1.0) as usize
     }
 
     /// Simulated time, s.

@@ -62,7 +62,7 @@ pub(super) fn each_pass(
     check: impl Fn(&mut Particles, &dyn Fn(&Particles, &dyn Fn(Pass<'_>))),
 ) {
     let support = config.settings.support_length();
-    for arch in [Arch::Scalar, Arch::best()] {
+    for arch in Arch::all() {
         let (mut particles, mut grid) = (cloud(config.settings.spacing as f32), Grid::default());
         let n = particles.len();
         let spacing = config.settings.spacing as f32;
@@ -296,7 +296,7 @@ fn lists_hold_every_neighbour() {
                     let apart = |j: u32| particles.position(i).distance(particles.position(j as usize));
                     let mut found: Vec<_> = list.to_vec();
                     found.retain(|&j| j as usize != particles.len());
-                    assert_eq!(list.len(), found.len().next_multiple_of(WIDEST));
+                    assert!(list.len() < found.len() + WIDEST);
                     assert!(found.iter().all(|&j| apart(j) < 1.001 * support), "{i}");
                     found.retain(|&j| apart(j) < support);
                     found.sort_unstable();
