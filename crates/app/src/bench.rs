@@ -1,5 +1,7 @@
 //! `hapflow bench`: what the fluid costs.
 
+mod felt;
+
 use crate::cli::{Bench, BenchArgs, WorkPrecisionArgs};
 use crate::draw::chart::{self, Chart, Series};
 use crate::run::Failure;
@@ -16,6 +18,7 @@ pub fn bench(args: &BenchArgs) -> Result<(), Failure> {
         Bench::Skip(format) => skip(format.json),
         Bench::Speed(format) => speed(format.json),
         Bench::WorkPrecision(args) => work_precision(args),
+        Bench::Felt(args) => felt::felt(args),
     }
 }
 

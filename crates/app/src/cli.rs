@@ -337,6 +337,23 @@ pub enum Bench {
     /// Error against CPU time for each solver, resolution, tolerance and step, with dated figures of other codes; up to an
     /// hour.
     WorkPrecision(WorkPrecisionArgs),
+    /// Every coupling with every filter at fluid rates of 30 to 250 Hz: the felt figures, spectra, what an error costs, what a
+    /// tick costs; hours.
+    Felt(FeltArgs),
+}
+
+/// Arguments of `bench felt`.
+#[derive(Debug, Args)]
+pub struct FeltArgs {
+    /// Print one line of JSON for each figure, as `validate` does, each spectrum and each point instead of the table.
+    #[arg(long)]
+    pub json: bool,
+    /// Folder for pictures of the crossing, the spectra, and error against cost, made if absent.
+    #[arg(long, value_name = "DIR")]
+    pub plot: Option<PathBuf>,
+    /// Couplings with their own filters at 60 Hz only, and a truth of two seeds.
+    #[arg(long)]
+    pub quick: bool,
 }
 
 /// Arguments of `bench work-precision`.

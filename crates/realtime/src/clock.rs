@@ -24,6 +24,13 @@ pub trait Clock: Send + Sync {
     fn wait_until_ns(&self, t: u64);
 }
 
+/// CPU time that the calling thread has used, ns; where the system does not tell, the time on its clock. Thread: any. A look
+/// costs a system call.
+#[must_use]
+pub fn thread_cpu_ns() -> u64 {
+    crate::os::thread_cpu_ns()
+}
+
 /// CPU time that all threads of the process have used, s; 0 where the system does not tell. Thread: any.
 #[must_use]
 pub fn process_cpu_s() -> f64 {

@@ -39,7 +39,9 @@ mod sync;
 mod thread;
 
 pub use ceiling::Ceiling;
-pub use clock::{Clock, DEFAULT_SPIN_MARGIN, HostClock, RealClock, VirtualClock, process_cpu_s};
+pub use clock::{
+    Clock, DEFAULT_SPIN_MARGIN, HostClock, RealClock, VirtualClock, process_cpu_s, thread_cpu_ns,
+};
 pub use flags::SharedFlags;
 pub use lane::{Alone, Claimed, Faultable, Lane, Refused, Sharing};
 pub use latest::{LatestReader, LatestWriter, latest, latest_with};

@@ -1,7 +1,7 @@
 //! `hapflow validate`: runs the cases, tells what came of them, and judges.
 
 mod plot;
-mod table;
+pub mod table;
 
 use crate::cli::ValidateArgs;
 use crate::run::Failure;

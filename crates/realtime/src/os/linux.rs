@@ -14,6 +14,14 @@ pub(crate) fn monotonic_ns() -> u64 {
     now.tv_sec as u64 * NS_PER_S + now.tv_nsec as u64
 }
 
+/// CPU time of the calling thread, ns.
+pub(crate) fn thread_cpu_ns() -> u64 {
+    let mut used = libc::timespec { tv_sec: 0, tv_nsec: 0 };
+    // SAFETY: `used` is a timespec to write to. The call cannot fail: this clock is always there.
+    unsafe { libc::clock_gettime(libc::CLOCK_THREAD_CPUTIME_ID, &mut used) };
+    used.tv_sec as u64 * NS_PER_S + used.tv_nsec as u64
+}
+
 /// CPU time of all threads of the process, s.
 pub(crate) fn process_cpu_s() -> f64 {
     let mut used = libc::timespec { tv_sec: 0, tv_nsec: 0 };

@@ -10,6 +10,7 @@ mod skip;
 mod speed;
 mod work_precision;
 
+pub use crate::felt::{CostPoint, Crossing, Found, Spectrum, felt};
 pub use machine::Machine;
 pub use skip::{Saving, skip};
 pub use speed::{Speed, speed};

@@ -59,12 +59,17 @@ impl<'a> Bench<'a> {
     /// In `scene`, with a force that is 1 N in the mean while the tool is still unless a gain was chosen.
     pub fn new(setup: &'a Setup<'a>, scene: Scene) -> Result<Self, ValidationError> {
         let place = scene.tool.position;
-        let mut bench = Self { setup, scene, gain: 1.0, still: DVec3::ZERO, simulated_s: 0.0 };
+        let mut bench = Self::unscaled(setup, scene);
         let still = bench.truth(&bench.scene.clone(), &still_path(place), 1)?;
         bench.still = mean(steady(&still.mean));
         let chosen = setup.number("gain");
         bench.gain = if chosen > 0.0 { chosen } else { 1.0 / bench.still.length().max(1e-6) };
         Ok(bench)
+    }
+
+    /// In `scene`, with a factor of 1.
+    pub fn unscaled(setup: &'a Setup<'a>, scene: Scene) -> Self {
+        Self { setup, scene, gain: 1.0, still: DVec3::ZERO, simulated_s: 0.0 }
     }
 
     /// The ways that are measured.
@@ -81,6 +86,11 @@ impl<'a> Bench<'a> {
         let trace = self.run(&still)?;
         let own = mean(&trace.sent[(1e3 * WARM_UP) as usize..]).dot(self.still.normalize_or_zero());
         Ok(way.scene(&self.scene, self.gain * self.still.length() / own.max(1e-6)))
+    }
+
+    /// Counts `seconds` that were simulated elsewhere.
+    pub fn lived_through(&mut self, seconds: f64) {
+        self.simulated_s += seconds;
     }
 
     /// A run of `scene` in the hand.

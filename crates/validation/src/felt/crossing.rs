@@ -50,29 +50,39 @@ fn run(setup: &Setup<'_>) -> Result<Report, ValidationError> {
     Ok(bench.report(measures))
 }
 
+/// `felt`, with a hand that crosses the jet.
+pub(super) fn script(setup: &Setup<'_>, felt: &Scene) -> Scene {
+    let side = WIDTH * (setup.number("tool_radius") + 0.5 * setup.number("diameter"));
+    let duration_s = PEAK * 2.0 * side / setup.number("crossing_speed");
+    let across = Segment::MoveTo { position: DVec3::X * side, duration_s };
+    scripted(felt, DVec3::NEG_X * side, &[across], HOLD)
+}
+
 /// A crossing, and what it should have been.
 #[derive(Clone)]
-struct Crossed {
+pub(super) struct Crossed {
     scene: Scene,
     trace: Trace,
     truth: Truth,
 }
 
 impl Crossed {
-    fn by(bench: &mut Bench<'_>, way: &Way) -> Result<Self, ValidationError> {
-        let felt = bench.felt(way)?;
-        let side = WIDTH * (bench.setup.number("tool_radius") + 0.5 * bench.setup.number("diameter"));
-        let duration_s = PEAK * 2.0 * side / bench.setup.number("crossing_speed");
-        let across = Segment::MoveTo { position: DVec3::X * side, duration_s };
-        let scene = scripted(&felt, DVec3::NEG_X * side, &[across], HOLD);
+    /// By `way`.
+    pub fn by(bench: &mut Bench<'_>, way: &Way) -> Result<Self, ValidationError> {
+        let scene = script(bench.setup, &bench.felt(way)?);
         let trace = bench.run(&scene)?;
         let truth = bench.truth_of(&trace)?;
         Ok(Self { scene, trace, truth })
     }
 
+    /// What was sent after the warm-up, and what should have been, N.
+    pub fn forces(&self) -> [&[DVec3]; 2] {
+        [steady(&self.trace.sent), steady(&self.truth.mean)]
+    }
+
     /// What the hand felt above 20 Hz that the truth does not have, N. What scatter the mean of the seeds has left is
     /// taken off.
-    fn added_ripple(&self) -> f64 {
+    pub fn added_ripple(&self) -> f64 {
         let added = ripple(&figures::difference(steady(&self.trace.sent), steady(&self.truth.mean)));
         let seeds = self.truth.seeds.len() as f64;
         // A seed against the mean of the others: its own scatter, and theirs.
@@ -81,8 +91,8 @@ impl Crossed {
         (added.powi(2) - left).max(0.0).sqrt()
     }
 
-    fn measures(&self, bench: &Bench<'_>, baseline: f64) -> Vec<Measure> {
-        let (sent, truth) = (steady(&self.trace.sent), steady(&self.truth.mean));
+    pub fn measures(&self, bench: &Bench<'_>, baseline: f64) -> Vec<Measure> {
+        let [sent, truth] = self.forces();
         let path = &self.trace.path[self.trace.path.len() - sent.len() - 1..];
         let floor = |figure: &dyn Fn(&[DVec3], &[DVec3]) -> f64| {
             Some(self.truth.floor(|a, b| figure(steady(a), steady(b))))

@@ -40,7 +40,7 @@ fn run(setup: &Setup<'_>) -> Result<Report, ValidationError> {
 }
 
 /// The worst of all frequencies and both directions.
-fn swung(bench: &mut Bench<'_>, way: &Way) -> Result<Vec<Measure>, ValidationError> {
+pub(super) fn swung(bench: &mut Bench<'_>, way: &Way) -> Result<Vec<Measure>, ValidationError> {
     let felt = bench.felt(way)?;
     let aside = DVec3::X * bench.setup.number("offset");
     let (mut lag, mut gain, mut floor) = (0.0_f64, 0.0_f64, [0.0_f64; 2]);

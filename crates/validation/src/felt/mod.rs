@@ -3,6 +3,7 @@
 
 mod bench;
 mod closed_loop;
+mod compare;
 mod crossing;
 mod energy;
 mod entry;
@@ -10,12 +11,16 @@ mod figures;
 mod jet;
 mod lag;
 mod pool;
+mod spectrum;
 mod still;
 mod stir;
+mod ticks;
 mod truth;
 mod ways;
 
 pub(crate) use closed_loop::ClosedLoop;
+pub use compare::{Crossing, Found, Point as CostPoint, felt};
+pub use spectrum::Spectrum;
 
 use crate::Case;
 

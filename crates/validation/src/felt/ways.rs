@@ -15,6 +15,15 @@ pub(crate) struct Way {
 /// Words for the ways that `--set coupling=` may pick.
 pub(crate) const WORDS: &[&str] = &["all", "momentum", "direct", "local"];
 
+/// Filters that each coupling is tried with.
+const FILTERS: [&str; 5] = [
+    "none",
+    "bartlett-hann:11@fluid",
+    "bartlett-hann:11@servo",
+    "butterworth:50:2@servo",
+    "one-euro:5:0.5@servo",
+];
+
 /// The thesis's window, whose taps are ticks or fluid frames.
 fn thesis(place: &str) -> Result<Way, ValidationError> {
     let filter = format!("bartlett-hann:11@{place}").parse().map_err(hapflow_engine::SceneError::from)?;
@@ -25,6 +34,29 @@ impl Way {
     /// The thesis's coupling with the window over ticks, which others are measured against.
     pub fn baseline() -> Result<Self, ValidationError> {
         thesis("servo")
+    }
+
+    /// Every coupling with every filter, or with `quick` as they are meant.
+    pub fn all(quick: bool) -> Result<Vec<Self>, ValidationError> {
+        if quick {
+            return Self::named("all");
+        }
+        let mut ways = Vec::new();
+        for coupling in CouplingKind::ALL {
+            for text in FILTERS {
+                let filter = Some(text.parse().map_err(hapflow_engine::SceneError::from)?);
+                ways.push(Self { coupling, filter });
+            }
+        }
+        Ok(ways)
+    }
+
+    /// Coupling and filter.
+    pub fn name(&self) -> String {
+        match self.filter {
+            None | Some(FilterSpec::None) => self.coupling.name().into(),
+            Some(filter) => format!("{} {filter}", self.coupling.name()),
+        }
     }
 
     /// The ways of one word.
