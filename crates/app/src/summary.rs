@@ -6,6 +6,9 @@ use hapflow_engine::run::{Outcome, TICK_S};
 use hapflow_engine::{Scene, signal};
 use serde_json::{Value, json};
 
+/// Parts of a run over which the force is told.
+const PARTS: usize = 12;
+
 /// The numbers of a run.
 pub struct Summary {
     mean_force: DVec3,
@@ -39,6 +42,8 @@ impl Summary {
             "ripple_rms_N": ripple_rms,
             "lag_s": lag,
             "max_force_N": max_force,
+            "force_over_time_N": over_time(&sent),
+            "fluid_weight_N": weight(scene, outcome.fluid.particles),
             "particles": outcome.fluid.particles,
             "fluid_steps": outcome.fluid.total_substeps,
             "fluid_frames": outcome.fluid.frame,
@@ -94,6 +99,16 @@ pub fn in_use(scene: &Scene, part: &str) -> String {
     };
     let plugins = named("plugin");
     if plugins.is_empty() { named("run") } else { plugins }
+}
+
+/// Means over equal parts of the run.
+fn over_time(sent: &[DVec3]) -> Vec<[f64; 3]> {
+    sent.chunks(sent.len().div_ceil(PARTS).max(1)).map(|part| signal::mean(part).to_array()).collect()
+}
+
+/// Weight of so many particles, N.
+fn weight(scene: &Scene, particles: usize) -> f64 {
+    particles as f64 * scene.fluid.particle_mass() * scene.fluid.gravity.length()
 }
 
 fn text(value: &hapflow_engine::Value) -> String {

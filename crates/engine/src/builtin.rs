@@ -1,4 +1,4 @@
-//! The shipped scenes, and scenes by name or path.
+//! The shipped scenes and meshes, and scenes by name or path.
 
 use crate::{Scene, SceneError, scene_file};
 use std::path::Path;
@@ -13,7 +13,16 @@ const SHIPPED: &[(&str, &str)] = &[
     ("stir-water", include_str!("../../../scenes/stir-water.toml")),
     ("stir-honey", include_str!("../../../scenes/stir-honey.toml")),
     ("dip", include_str!("../../../scenes/dip.toml")),
+    ("pour", include_str!("../../../scenes/pour.toml")),
 ];
+
+/// Shipped meshes, as Wavefront OBJ.
+const MESHES: &[(&str, &str)] = &[("cup", include_str!("../../../scenes/cup.obj"))];
+
+/// The text of the shipped mesh of that name.
+pub(crate) fn mesh(name: &str) -> Option<&'static str> {
+    MESHES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+}
 
 /// Names and texts of the shipped scenes.
 pub fn shipped() -> &'static [(&'static str, &'static str)] {

@@ -1,5 +1,6 @@
 //! Meshes from files: Wavefront OBJ, and STL in text and in binary.
 
+use crate::builtin;
 use glam::DVec3;
 use hapflow_fluid::{MAX_TRIANGLES, Mesh};
 use std::path::Path;
@@ -13,12 +14,15 @@ const STL_TRIANGLE: usize = 50;
 /// Corners, and the corners of each triangle.
 type Triangles = (Vec<DVec3>, Vec<[u32; 3]>);
 
-/// The mesh in the file at `path`. What is wrong is told with file and line.
+/// The shipped mesh of that name, or the one in the file at `path`. What is wrong is told with file and line.
 pub(crate) fn read(path: &Path) -> Result<Mesh, String> {
     let name = path.display();
     let told = |what: &dyn std::fmt::Display| format!("a closed mesh (OBJ or STL); {name}: {what}");
-    let bytes = load(path).map_err(|what| told(&what))?;
-    let (vertices, triangles) = parse(path, &bytes).map_err(|(line, what)| match line {
+    let found = match path.to_str().and_then(builtin::mesh) {
+        Some(text) => obj(text),
+        None => parse(path, &load(path).map_err(|what| told(&what))?),
+    };
+    let (vertices, triangles) = found.map_err(|(line, what)| match line {
         0 => told(&what),
         _ => format!("a closed mesh (OBJ or STL); {name}:{line}: {what}"),
     })?;

@@ -1,5 +1,6 @@
 //! Reading a scene from TOML, and writing it. Every error names the file, the line, the field, the value and what it must be.
 
+use crate::builtin;
 use crate::scene::{Change, Scene};
 use crate::scene_builder::{FARTHEST_M, LATEST_S};
 use crate::settings::{self, Named};
@@ -234,11 +235,12 @@ impl Reader<'_> {
         Ok(thing)
     }
 
-    /// A file that is named in a scene file lies beside that.
+    /// A file that is named in a scene file lies beside that; a mesh that is shipped does not.
     fn located(&self, path: &str, value: Value) -> Value {
         let beside = Path::new(self.file).parent().unwrap_or(Path::new(""));
+        let is_file = |name: &str| !name.is_empty() && builtin::mesh(name).is_none();
         match value {
-            Value::Text(name) if path.ends_with(".file") && !name.is_empty() => {
+            Value::Text(name) if path.ends_with(".file") && is_file(&name) => {
                 Value::Text(beside.join(name).to_string_lossy().into_owned())
             }
             other => other,

@@ -851,7 +851,7 @@ const fn form_settings<T: Formed>(paths: [&'static str; 7]) -> [Setting<T>; 7] {
             unit: "",
             kind: Kind::Text,
             live: FIXED,
-            about: "Closed mesh, Wavefront OBJ or STL; where a scene file names it, beside that. Its centre of volume is the body's origin.",
+            about: "Closed mesh: a Wavefront OBJ or STL file, where a scene file names it beside that; or \"cup\", which is shipped. Its centre of volume is the body's origin.",
             get: |t: &T| Value::Text(t.form().file().into()),
             set: |t: &mut T, v| t.form_mut().set_file(v.text()),
         },
