@@ -15,6 +15,7 @@ fn weights(scene: &Scene) -> [f64; 2] {
             record: None,
             guide: &mut |_| ControlFlow::Continue(()),
             progress: &mut |_: Progress<'_>| ControlFlow::Continue(()),
+            parts: hapflow::engine::Parts::default(),
         },
     )
     .unwrap();

@@ -184,9 +184,10 @@ typedef struct hapflow_tool_config {
     double scale; /* metres a unit of `file` */
     const char* file; /* of a mesh, Wavefront OBJ or STL; null: none */
     const void* mesh; /* null */
+    double buoyancy_scale; /* factor on the lift alone, beside force_scale (coupling local) */
 } hapflow_tool_config;
 #if UINTPTR_MAX > 0xffffffffu
-HAPFLOW_ASSERT_SIZE(hapflow_tool_config, 168);
+HAPFLOW_ASSERT_SIZE(hapflow_tool_config, 176);
 #endif
 
 /* Fills `config` with the defaults: a ball of 15 mm radius in the origin; `size` is sizeof *config. [any]

@@ -238,6 +238,7 @@ pub struct ToolConfig {
     pub scale: f64,
     pub file: *const c_char,
     pub mesh: *const c_void,
+    pub buoyancy_scale: f64,
 }
 
 #[repr(C)]

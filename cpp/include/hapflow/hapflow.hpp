@@ -330,6 +330,7 @@ struct Tool {
     Vec3 extent{{0.03, 0.03, 0.03}}; ///< Edges of a box, m.
     std::string file{};              ///< Of a mesh, Wavefront OBJ or STL.
     double scale = 1;                ///< Metres a unit of that file.
+    double buoyancy_scale = 1;       ///< Factor on the lift alone, beside force_scale (coupling local).
 };
 
 /// A rigid body that goes where fluid and gravity take it; walls, obstacles, tools and other bodies stop it. By default a
@@ -471,6 +472,7 @@ public:
         c.collision_response = tool.collision_response;
         detail::copy(tool.position, c.position);
         c.force_scale = tool.force_scale;
+        c.buoyancy_scale = tool.buoyancy_scale;
         c.solid_stiffness = tool.solid_stiffness;
         c.solid_damping = tool.solid_damping;
         std::uint32_t index = 0;

@@ -96,6 +96,9 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
     plugins.parts.choose(&mut scene)?;
     scene.check()?;
     let realtime = args.realtime || scene.in_a_hand();
+    for caution in scene.cautions() {
+        eprintln!("caution: {caution}");
+    }
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(file_stem(&scene)));
     make_folder(&folder)?;
     let outcome = step(args, &scene, plugins.parts.clone(), realtime)?;

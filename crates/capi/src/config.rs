@@ -139,8 +139,8 @@ impl SessionConfig {
     }
 
     /// The log of a session with so many tools.
-    pub fn log(&self, tools: usize) -> Result<Option<Log>, Failure> {
-        Log::open(self.log, self.log_user, tools)
+    pub fn log(&self, scene: &Scene) -> Result<Option<Log>, Failure> {
+        Log::open(self.log, self.log_user, scene)
     }
 
     /// A copy of the scene that was built by calls, if it is one.

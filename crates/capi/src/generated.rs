@@ -262,13 +262,14 @@ pub struct hapflow_tool_config {
     pub scale: f64,
     pub file: *const ::core::ffi::c_char,
     pub mesh: *const ::core::ffi::c_void,
+    pub buoyancy_scale: f64,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 #[cfg(target_pointer_width = "64")]
 const _: () = {
     [
         "Size of hapflow_tool_config",
-    ][::core::mem::size_of::<hapflow_tool_config>() - 168usize];
+    ][::core::mem::size_of::<hapflow_tool_config>() - 176usize];
     [
         "Alignment of hapflow_tool_config",
     ][::core::mem::align_of::<hapflow_tool_config>() - 8usize];
@@ -329,6 +330,9 @@ const _: () = {
     [
         "Offset of field: hapflow_tool_config::mesh",
     ][::core::mem::offset_of!(hapflow_tool_config, mesh) - 160usize];
+    [
+        "Offset of field: hapflow_tool_config::buoyancy_scale",
+    ][::core::mem::offset_of!(hapflow_tool_config, buoyancy_scale) - 168usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]

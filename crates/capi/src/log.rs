@@ -6,7 +6,7 @@ use crate::generated as c;
 use crate::handle::{Handle, Id};
 use crate::report::FAULTS;
 use crate::session::with_main;
-use hapflow_engine::{Control, ServoPace, Session};
+use hapflow_engine::{Control, Scene, ServoPace, Session};
 use hapflow_haptics::FaultSet;
 use hapflow_realtime::Grant;
 use std::cell::RefCell;
@@ -29,6 +29,8 @@ type Lines = Vec<(Level, String)>;
 pub struct Log {
     function: LogFunction,
     user: LogUser,
+    /// What the scene asks of a device beyond what it bears, until it is told.
+    cautions: Vec<String>,
     tools: Vec<ToolTold>,
     /// Frames that the fluid was too slow for, and those that hit a limit.
     skipped: u64,
@@ -45,15 +47,16 @@ struct ToolTold {
 }
 
 impl Log {
-    /// Of a session with so many tools, if anybody listens.
-    pub fn open(function: LogFunction, user: LogUser, tools: usize) -> Result<Option<Self>, Failure> {
-        let tools = vec![ToolTold::default(); tools];
-        Ok((!function.is_null()).then_some(Self { function, user, tools, skipped: 0, degraded: 0 }))
+    /// Of a session of `scene`, if anybody listens.
+    pub fn open(function: LogFunction, user: LogUser, scene: &Scene) -> Result<Option<Self>, Failure> {
+        let tools = vec![ToolTold::default(); scene.tools().count()];
+        let cautions = scene.cautions();
+        Ok((!function.is_null()).then_some(Self { function, user, cautions, tools, skipped: 0, degraded: 0 }))
     }
 
     /// Tells what is new.
     pub fn poll(&mut self, session: &mut Session, control: &Control) {
-        let mut lines = Lines::new();
+        let mut lines: Lines = self.cautions.drain(..).map(|text| (Level::Warning, text)).collect();
         let several = self.tools.len() > 1;
         for (n, told) in self.tools.iter_mut().enumerate() {
             let begin = lines.len();

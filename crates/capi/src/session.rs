@@ -165,7 +165,7 @@ fn open(config: &SessionConfig) -> Result<Parts, Failure> {
     let scene = config.scene()?;
     // Whatever may be refused is, before any device is taken over.
     scene.check()?;
-    let log = config.log(scene.tools().count())?;
+    let log = config.log(&scene)?;
     let devices = devices(config, &scene)?;
     let names = devices.iter().map(|d| Shown::new(d.name())).collect();
     let options = SessionOptions {

@@ -36,6 +36,7 @@ pub struct ToolConfig {
     scale: f64,
     file: Text,
     mesh: *const c_void,
+    buoyancy_scale: f64,
 }
 
 as_in_header!(
@@ -59,6 +60,7 @@ as_in_header!(
         scale,
         file,
         mesh,
+        buoyancy_scale,
     }
 );
 
@@ -91,6 +93,7 @@ impl Part for ToolConfig {
         scale: 1.0,
         file: Text::NULL,
         mesh: std::ptr::null(),
+        buoyancy_scale: 1.0,
     };
 
     fn thing(&self) -> Result<ToolSettings, Failure> {
@@ -100,6 +103,7 @@ impl Part for ToolConfig {
         finite("mass", &[self.mass])?;
         finite("position", &self.position)?;
         finite("collision_response, force_scale", &[self.collision_response, self.force_scale])?;
+        finite("buoyancy_scale", &[self.buoyancy_scale])?;
         finite("solid_stiffness, solid_damping", &[self.solid_stiffness, self.solid_damping])?;
         Ok(ToolSettings {
             name: name(self.name)?,
@@ -108,6 +112,7 @@ impl Part for ToolConfig {
             collision_response: self.collision_response,
             position: DVec3::from(self.position),
             force_scale: self.force_scale,
+            buoyancy_scale: self.buoyancy_scale,
             solids: SolidFeel {
                 stiffness_n_per_m: self.solid_stiffness,
                 damping_n_s_per_m: self.solid_damping,

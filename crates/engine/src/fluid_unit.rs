@@ -137,7 +137,10 @@ impl FluidUnit {
 
     fn take_settings(&mut self, now_s: f64) {
         self.shared.apply_changes_until(now_s);
-        let Some(config) = self.shared.newer_than(&mut self.seen) else { return };
+        let Some((config, buoyancy)) = self.shared.newer_than(&mut self.seen) else { return };
+        for (lane, scale) in self.tools.iter_mut().zip(buoyancy) {
+            lane.buoyancy_scale = scale;
+        }
         // Main has checked them; a backend that still refuses keeps its old ones and says so.
         match self.backend.configure(&config) {
             Ok(()) => self.config = config,

@@ -35,6 +35,7 @@ mod session;
 pub mod settings;
 mod shared;
 pub mod signal;
+mod stability;
 mod threads;
 mod tick_times;
 mod tool_lane;

@@ -115,6 +115,8 @@ pub struct ToolSettings {
     pub position: DVec3,
     /// Factor on the fluid's force before filter and gate.
     pub force_scale: f64,
+    /// Factor on the lift, beside that one (coupling `local`).
+    pub buoyancy_scale: f64,
     /// How the scene's solids feel; not at all with a stiffness of 0.
     pub solids: SolidFeel,
 }
@@ -173,6 +175,7 @@ impl Default for ToolSettings {
             collision_response: 0.2,
             position: DVec3::ZERO,
             force_scale: 1.0,
+            buoyancy_scale: 1.0,
             solids: SolidFeel { stiffness_n_per_m: 0.0, damping_n_s_per_m: 0.0 },
         }
     }
@@ -417,6 +420,7 @@ impl Scene {
         self.fluid_config(1).check()?;
         self.check_names()?;
         self.check_tool_mass()?;
+        self.check_buoyancy()?;
         self.gate.check()?;
         self.hand.check()?;
         self.filter().check(1000.0)?;
@@ -481,6 +485,22 @@ impl Scene {
                 path: "tool.mass".into(),
                 value: format!("{}", tool.mass),
                 expected: format!("at least {:.3} kg for this tool with coupling momentum", least(tool)),
+            }),
+        }
+    }
+
+    /// Only a coupling that looks at the fluid knows what of the force is lift.
+    fn check_buoyancy(&self) -> Result<(), SceneError> {
+        let scaled = self.tools().find(|tool| tool.buoyancy_scale != 1.0);
+        match scaled.filter(|_| self.run.coupling != CouplingKind::Local) {
+            None => Ok(()),
+            Some(tool) => Err(SceneError::BadValue {
+                path: "tool.buoyancy_scale".into(),
+                value: format!("{}", tool.buoyancy_scale),
+                expected: format!(
+                    "1 with coupling {}: only local tells lift from flow",
+                    self.run.coupling.name()
+                ),
             }),
         }
     }

@@ -492,7 +492,7 @@ fn open_tool(
         started_s: 0.0,
         pace: None,
     };
-    let lane = ToolLane::new(parts.make_coupling(scene)?, path_out, model_in, tool.position);
+    let lane = ToolLane::new(parts.make_coupling(scene)?, path_out, model_in, tool);
     let ends = ToolEnds { servo: Some(servo), report, touching, tape };
     Ok(OpenedTool { ends, lane, settings: settings_in, solids })
 }

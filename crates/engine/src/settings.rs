@@ -512,7 +512,15 @@ const OTHERS: &[Setting<Scene>] = &[
         0.0..=1000.0,
         LIVE,
         tool.force_scale,
-        "Factor on the fluid's force before filter and gate."
+        "Factor on the fluid's force before filter and gate: on flow and lift alike."
+    ),
+    number!(
+        "tool.buoyancy_scale",
+        "",
+        0.0..=1000.0,
+        LIVE,
+        tool.buoyancy_scale,
+        "Factor on the lift alone, times the one before (coupling local): 0 leaves the flow."
     ),
     number!(
         "tool.solid_stiffness",
@@ -930,7 +938,15 @@ const TOOL_OTHERS: &[Setting<ToolSettings>] = &[
         0.0..=1000.0,
         LIVE,
         force_scale,
-        "Factor on the fluid's force before filter and gate."
+        "Factor on the fluid's force before filter and gate: on flow and lift alike."
+    ),
+    number!(
+        "buoyancy_scale",
+        "",
+        0.0..=1000.0,
+        LIVE,
+        buoyancy_scale,
+        "Factor on the lift alone, times the one before (coupling local): 0 leaves the flow."
     ),
     number!(
         "solid_stiffness",

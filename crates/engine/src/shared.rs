@@ -96,14 +96,16 @@ impl Shared {
         }
     }
 
-    /// The fluid's settings, if there are newer ones than `seen`.
-    pub fn newer_than(&self, seen: &mut u64) -> Option<FluidConfig> {
+    /// The fluid's settings, and each tool's factor on the lift, if there are newer ones than `seen`.
+    pub fn newer_than(&self, seen: &mut u64) -> Option<(FluidConfig, Vec<f64>)> {
         let version = self.version.load(Ordering::Acquire);
         if version == *seen {
             return None;
         }
         *seen = version;
-        Some(self.state().scene.fluid_config(self.threads))
+        let state = self.state();
+        let buoyancy = state.scene.tools().map(|tool| tool.buoyancy_scale).collect();
+        Some((state.scene.fluid_config(self.threads), buoyancy))
     }
 
     /// Asks for the particles.

@@ -1,12 +1,11 @@
 //! One tool's half on the fluid's side: its path in, its body's motion, its local model out.
 
 use crate::BodyReport;
+use crate::scene::ToolSettings;
 use crate::servo::PathSample;
-use glam::DVec3;
 use hapflow_fluid::{BodyConfig, BodyDrive, BodyMotion, BodySample, Shape};
 use hapflow_haptics::{
-    Answer, BodyState, Coupling, Drive, Forecast, FrameEnd, Law, LocalModel, Neighbourhood, Rendering,
-    ToolState, Wrench,
+    Answer, BodyState, Coupling, Drive, Forecast, FrameEnd, Law, LocalModel, Neighbourhood, ToolState, Wrench,
 };
 use hapflow_realtime::{LatestWriter, RingConsumer};
 
@@ -34,6 +33,8 @@ pub(crate) struct ToolLane {
     path_taken: Vec<ToolState>,
     /// Time from the end of a frame until its model is handed over, s, over the last frames.
     delay_s: f64,
+    /// Factor on the lift, beside the one on the whole force.
+    pub buoyancy_scale: f64,
 }
 
 /// Ticks from which a path is carried on.
@@ -57,13 +58,14 @@ pub(crate) struct FrameTime {
 }
 
 impl ToolLane {
-    /// A lane whose tool rests at `position` until a sample comes.
+    /// A lane whose tool rests where `tool` starts until a sample comes.
     pub fn new(
         coupling: Box<dyn Coupling>,
         path: RingConsumer<PathSample>,
         model: LatestWriter<LocalModel>,
-        position: DVec3,
+        tool: &ToolSettings,
     ) -> Self {
+        let position = tool.position;
         Self {
             coupling,
             path,
@@ -79,6 +81,7 @@ impl ToolLane {
             leads: false,
             path_taken: Vec::with_capacity(MOST_SAMPLES + 2),
             delay_s: 0.0,
+            buoyancy_scale: tool.buoyancy_scale,
         }
     }
 
@@ -128,6 +131,7 @@ impl ToolLane {
             frame_s: frame.length_s,
             radius: config.shape.bounding_radius(),
             volume: config.shape.volume(),
+            buoyancy_scale: self.buoyancy_scale,
             path: &self.path_taken,
             felt_at: self.felt_at(frame),
             around,
@@ -197,8 +201,9 @@ impl ToolLane {
         if !self.leads {
             return 0.0;
         }
-        // The frame's mean is late by half of the frame, and blended in.
-        self.delay_s + 0.5 * frame.length_s + Rendering::blend_s(frame.length_s) + TICK_DELAY_S
+        // The frame's mean is late by half of the frame, and blended in over one.
+        let late_s = self.coupling.late_s(frame.length_s);
+        self.delay_s + late_s + 1.5 * frame.length_s + TICK_DELAY_S
     }
 
     /// Puts a smooth way from where the last frame's path ended to where the tool will be when this frame is felt in the

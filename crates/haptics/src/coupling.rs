@@ -87,6 +87,8 @@ pub struct FrameEnd<'a> {
     pub radius: f64,
     /// Volume of the tool, m³.
     pub volume: f64,
+    /// Factor on the lift that the hand feels, beside the one on the whole force.
+    pub buoyancy_scale: f64,
     /// The way that the tool was led in it.
     pub path: &'a [ToolState],
     /// Where the hand is expected in the middle of the time in which this frame is felt.
@@ -123,6 +125,11 @@ pub trait Coupling: Send {
     /// Share of the hand's acceleration with which that path goes on, 0..1.
     fn bend(&self) -> f64 {
         1.0
+    }
+
+    /// By how much what is no law comes late, where frames of `frame_s` seconds are averaged, s.
+    fn late_s(&self, _frame_s: f64) -> f64 {
+        0.0
     }
 
     /// How the body moves in the frame of `frame_s` seconds whose tool path ends at `device`.
@@ -203,6 +210,7 @@ mod tests {
                 frame_s: dt,
                 radius: 0.01,
                 volume: 1e-6,
+                buoyancy_scale: 1.0,
                 path: &[],
                 felt_at,
                 around: None,

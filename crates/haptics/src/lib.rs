@@ -36,6 +36,7 @@ mod range;
 mod rendering;
 mod rim;
 mod solid;
+mod stability;
 mod types;
 mod velocity;
 
@@ -60,5 +61,6 @@ pub use range::{RangeError, check_range};
 pub use rendering::Rendering;
 pub use rim::{Rim, Workspace, WorkspaceError};
 pub use solid::{Pose, Solid, SolidKind, SolidShape, ground, open_box};
+pub use stability::{LOCAL_DELAYS_S, most_damping, most_stiffness};
 pub use types::{ToolState, Wrench};
 pub use velocity::VelocityEstimator;

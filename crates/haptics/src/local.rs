@@ -4,6 +4,7 @@ use crate::immersion::Immersion;
 use crate::impact::Stream;
 use crate::{Answer, BodyState, Coupling, Drive, FrameEnd, Law, LawNode, Neighbourhood, ToolState, Wrench};
 use glam::DVec3;
+use std::collections::VecDeque;
 
 /// How far round the tool it looks, in its radii.
 const REACH: f64 = 3.0;
@@ -15,6 +16,8 @@ const SPACING: [f64; 2] = [0.2, 0.3];
 const FIT_S: f64 = 0.3;
 /// Acceleration below which the added mass is hardly measured, m/s².
 const QUIET: f64 = 0.3;
+/// Time over which frames are averaged before they are fitted, s: a fast fluid's frame is the mean over little time, and noisy.
+const MEAN_S: f64 = 1.0 / 60.0;
 /// Largest factor on the law, and on the added mass.
 const MOST: f64 = 3.0;
 
@@ -23,13 +26,16 @@ const MOST: f64 = 3.0;
 /// The fluid's load on the led tool is split into a law, which says how the force changes with the tool's place and velocity,
 /// and the rest: F = (F̄ − L̄) + L(x, v), with means over the frame's path. The law is the lift, and β times the impact of the
 /// stream or the drag of the fluid that the tool stands in. β is the ratio of the force and that in the last time, times how
-/// well they go together. What the fluid answers to the tool's acceleration is taken off, and left to the servo.
+/// well they go together. What the fluid answers to the tool's acceleration is taken off, and left to the servo. The lift may be
+/// given another size than the rest: what is not of the lift's law is not changed by that.
 #[derive(Debug, Default)]
 pub(crate) struct Local {
     stream: Stream,
     fit: Fit,
     /// How far the tool stands in the fluid, 0..1.
     stands: f64,
+    /// The last frames, the newest last.
+    parts: VecDeque<Part>,
 }
 
 impl Coupling for Local {
@@ -45,6 +51,10 @@ impl Coupling for Local {
         Some(REACH * radius)
     }
 
+    fn late_s(&self, frame_s: f64) -> f64 {
+        0.5 * (frames(frame_s) - 1) as f64 * frame_s
+    }
+
     fn begin_frame(&mut self, _: &BodyState, _: &ToolState, _: f64) -> Drive {
         Drive::Led
     }
@@ -56,18 +66,39 @@ impl Coupling for Local {
         let (moving, lift) = self.laws(frame, around, &pool);
         let part = Part {
             force: frame.load.force - mean_force(&lift, frame.path),
+            torque: frame.load.torque,
             law: mean_force(&moving, frame.path),
             acceleration: acceleration(frame),
             added_mass: pool.added_mass(frame.volume, frame.radius, frame.body.position),
         };
+        // What is no number is not kept: it would stay for ever.
+        if !part.is_finite() {
+            return Answer { wrench: frame.load, ..Answer::default() };
+        }
+        let part = self.mean(part, frame.frame_s);
         let (factor, added_mass) = self.fit.take(&part, frame.frame_s);
-        let law = moving.scaled(factor).plus(&lift);
-        let rest = frame.load.force + part.acceleration * added_mass - mean_force(&law, frame.path);
-        Answer { wrench: Wrench { force: rest, ..frame.load }, law, added_mass }
+        let force = part.force + part.acceleration * added_mass - part.law * factor;
+        let law = moving.scaled(factor).plus(&lift.scaled(frame.buoyancy_scale));
+        Answer { wrench: Wrench { force, torque: part.torque }, law, added_mass }
     }
 }
 
+/// Frames of `frame_s` seconds that are averaged.
+fn frames(frame_s: f64) -> usize {
+    (MEAN_S / frame_s).round().max(1.0) as usize
+}
+
 impl Local {
+    /// The mean of `part` and those of the frames before.
+    fn mean(&mut self, part: Part, frame_s: f64) -> Part {
+        self.parts.push_back(part);
+        while self.parts.len() > frames(frame_s) {
+            self.parts.pop_front();
+        }
+        let share = 1.0 / self.parts.len() as f64;
+        self.parts.iter().fold(Part::default(), |sum, part| sum.plus(part, share))
+    }
+
     /// The law of what moves against the tool, and that of the lift, of the same places.
     fn laws(&mut self, frame: &FrameEnd<'_>, around: &Neighbourhood<'_>, pool: &Immersion) -> (Law, Law) {
         let (at, radius, stands) = (frame.felt_at, frame.radius, self.stands);
@@ -89,9 +120,12 @@ impl Local {
 }
 
 /// What a frame's force is to be made of: means over its path.
+#[derive(Debug, Default)]
 struct Part {
     /// The force but for the lift, N.
     force: DVec3,
+    /// The torque, N·m.
+    torque: DVec3,
     /// The law of what moves, N.
     law: DVec3,
     /// Acceleration of the tool, m/s².
@@ -102,8 +136,19 @@ struct Part {
 
 impl Part {
     fn is_finite(&self) -> bool {
-        let vectors = [self.force, self.law, self.acceleration];
+        let vectors = [self.force, self.torque, self.law, self.acceleration];
         vectors.iter().all(|v| v.is_finite()) && self.added_mass.is_finite()
+    }
+
+    /// This, and a share of `other`.
+    fn plus(self, other: &Self, share: f64) -> Self {
+        Self {
+            force: self.force + other.force * share,
+            torque: self.torque + other.torque * share,
+            law: self.law + other.law * share,
+            acceleration: self.acceleration + other.acceleration * share,
+            added_mass: self.added_mass + other.added_mass * share,
+        }
     }
 }
 
@@ -120,12 +165,8 @@ struct Fit {
 }
 
 impl Fit {
-    /// Takes a frame and gives β, times the share of the force that both explain, and m. What is no number is not kept: it would
-    /// stay for ever.
+    /// Takes a frame and gives β, times the share of the force that both explain, and m.
     fn take(&mut self, part: &Part, frame_s: f64) -> (f64, f64) {
-        if !part.is_finite() {
-            return (0.0, 0.0);
-        }
         let share = 1.0 - (-frame_s / FIT_S).exp();
         // What is looked for is by how much the mass is more than in theory.
         let (f, l, a) = (part.force + part.acceleration * part.added_mass, part.law, part.acceleration);
@@ -173,22 +214,56 @@ fn mean_force(law: &Law, path: &[ToolState]) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
+
+    const RADIUS: f64 = 0.012;
+    const SIDE: usize = 16;
+
+    /// What is felt of a ball at rest deep in water that is lifted and pushed aside.
+    fn felt(buoyancy_scale: f64, volume: f64, load: DVec3) -> DVec3 {
+        let nodes = vec![[1.0, 0.0, 0.0, 0.0]; SIDE.pow(3)];
+        let around = Neighbourhood {
+            density: 1000.0,
+            viscosity: 0.001,
+            gravity: DVec3::NEG_Y * 9.81,
+            origin: DVec3::splat(-3.0 * RADIUS),
+            spacing: 6.0 * RADIUS / 15.0,
+            side: SIDE,
+            nodes: &nodes,
+        };
+        let tool = ToolState::default();
+        let answer = Local::default().end_frame(&FrameEnd {
+            body: BodyState::default(),
+            load: Wrench::from_force(load),
+            frame_s: 1.0 / 60.0,
+            radius: RADIUS,
+            volume,
+            buoyancy_scale,
+            path: &[tool],
+            felt_at: tool,
+            around: Some(around),
+        });
+        answer.wrench.force + answer.law.at(&tool)
+    }
 
     #[test]
-    fn a_frame_of_no_numbers_is_forgotten() {
-        let part = |force: f64| Part {
-            force: DVec3::Y * force,
-            law: DVec3::Y,
-            acceleration: DVec3::X,
-            added_mass: 0.01,
-        };
-        let (mut spoilt, mut sound) = (Fit::default(), Fit::default());
-        for force in [1.0, 2.0, f64::NAN, f64::INFINITY, 1.5] {
-            let answer = spoilt.take(&part(force), 0.01);
-            if force.is_finite() {
-                assert_eq!(answer, sound.take(&part(force), 0.01));
-            }
+    fn the_lift_alone_is_scaled() {
+        let volume = 4.0 / 3.0 * PI * RADIUS.powi(3);
+        let (lift, push) = (DVec3::Y * (9810.0 * volume), DVec3::X * 0.2);
+        for scale in [0.0, 1.0, 3.0] {
+            let found = felt(scale, volume, lift + push);
+            assert!((found - push - lift * scale).length() < 1e-6, "{scale}: {found}");
         }
-        assert!(spoilt.take(&Part { added_mass: f64::NAN, ..part(1.0) }, 0.01).0 == 0.0);
+    }
+
+    /// Four frames of 250 Hz are averaged; one of numbers that are none is handed on.
+    #[test]
+    fn a_fast_fluid_is_averaged_over_a_sixtieth_of_a_second() {
+        let mut local = Local::default();
+        assert_eq!(frames(1.0 / 250.0), 4);
+        let part = |force| Part { force, ..Part::default() };
+        (0..10).for_each(|_| assert_eq!(local.mean(part(DVec3::X), 0.004).force, DVec3::X));
+        assert_eq!(local.mean(part(DVec3::X * 5.0), 0.004).force, DVec3::X * 2.0);
+        assert!(!felt(1.0, 1e-6, DVec3::NAN).is_finite());
     }
 }

@@ -5,8 +5,6 @@ use crate::passivity::Passivity;
 use crate::{CouplingKind, Forecast, LocalModel, ToolState, Wrench};
 use glam::DVec3;
 
-/// Shortest time over which a new model is blended in, s: a fast fluid is the mean over little time, and noisy.
-const BLEND_S: f64 = 1.0 / 60.0;
 /// Ticks of which the hand's place and velocity are made.
 const TICKS: usize = 40;
 /// What leaves at a tick acts until the next: in the mean half a tick later, s.
@@ -14,8 +12,8 @@ const AHEAD_S: f64 = 0.5e-3;
 
 /// Makes the wrench of each tick from the newest local model. Thread: servo; no allocation, no lock.
 ///
-/// Where the coupling blends, what a new model changes at once is taken off again and given back over one fluid frame (or a
-/// sixtieth of a second, if that is longer), so that the force has no step, however late or early or different the model is.
+/// Where the coupling blends, what a new model changes at once is taken off again and given back over one fluid frame, so that the
+/// force has no step, however late or early or different the model is.
 #[derive(Clone, Debug)]
 pub struct Rendering {
     /// Where the hand is, if the coupling looks at it that closely.
@@ -44,12 +42,6 @@ impl Rendering {
             passivity: Passivity::default(),
             held_back_n: 0.0,
         }
-    }
-
-    /// Time over which the model of a frame of `frame_s` seconds is blended in, s. That is also by how much what is blended
-    /// comes late.
-    pub fn blend_s(frame_s: f64) -> f64 {
-        frame_s.max(BLEND_S)
     }
 
     /// The wrench on a tool in this state at `time_s`, with a factor of `scale` on the fluid's force; `fresh` says that
@@ -121,7 +113,7 @@ impl Rendering {
 
     /// Share of the step that is left.
     fn left(&self, time_s: f64) -> f64 {
-        let share = (time_s + AHEAD_S - self.model.published_s) / Self::blend_s(self.model.frame_s);
+        let share = (time_s + AHEAD_S - self.model.published_s) / self.model.frame_s;
         // An age that is no number leaves nothing over.
         if share < 1.0 { 1.0 - share.max(0.0) } else { 0.0 }
     }
