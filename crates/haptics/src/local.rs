@@ -34,8 +34,9 @@ pub(crate) struct Local {
     fit: Fit,
     /// How far the tool stands in the fluid, 0..1.
     stands: f64,
-    /// The last frames, the newest last.
-    parts: VecDeque<Part>,
+    /// The frames that are averaged, the newest last, and their way.
+    past: VecDeque<Past>,
+    path: Vec<ToolState>,
 }
 
 impl Coupling for Local {
@@ -61,25 +62,27 @@ impl Coupling for Local {
 
     fn end_frame(&mut self, frame: &FrameEnd<'_>) -> Answer {
         let Some(around) = &frame.around else { return Answer { wrench: frame.load, ..Answer::default() } };
+        if !frame.load.is_finite() {
+            return Answer { wrench: frame.load, ..Answer::default() };
+        }
         let pool = Immersion::look(around, frame.body.position, frame.radius);
         self.stands = pool.share();
+        let (load, acceleration) = self.remember(frame);
         let (moving, lift) = self.laws(frame, around, &pool);
         let part = Part {
-            force: frame.load.force - mean_force(&lift, frame.path),
-            torque: frame.load.torque,
-            law: mean_force(&moving, frame.path),
-            acceleration: acceleration(frame),
+            force: load.force - mean_force(&lift, &self.path),
+            law: mean_force(&moving, &self.path),
+            acceleration,
             added_mass: pool.added_mass(frame.volume, frame.radius, frame.body.position),
         };
         // What is no number is not kept: it would stay for ever.
         if !part.is_finite() {
             return Answer { wrench: frame.load, ..Answer::default() };
         }
-        let part = self.mean(part, frame.frame_s);
         let (factor, added_mass) = self.fit.take(&part, frame.frame_s);
         let force = part.force + part.acceleration * added_mass - part.law * factor;
         let law = moving.scaled(factor).plus(&lift.scaled(frame.buoyancy_scale));
-        Answer { wrench: Wrench { force, torque: part.torque }, law, added_mass }
+        Answer { wrench: Wrench { force, ..load }, law, added_mass }
     }
 }
 
@@ -89,21 +92,31 @@ fn frames(frame_s: f64) -> usize {
 }
 
 impl Local {
-    /// The mean of `part` and those of the frames before.
-    fn mean(&mut self, part: Part, frame_s: f64) -> Part {
-        self.parts.push_back(part);
-        while self.parts.len() > frames(frame_s) {
-            self.parts.pop_front();
+    /// Takes a frame, and gives the mean load and acceleration of it and those before that are averaged with it; their way is then
+    /// in `path`. The newest law is compared with the force on all of it, so that what changes in it from frame to frame by chance is
+    /// taken off again.
+    fn remember(&mut self, frame: &FrameEnd<'_>) -> (Wrench, DVec3) {
+        self.past.push_back(Past {
+            load: frame.load,
+            acceleration: acceleration(frame),
+            path: frame.path.to_vec(),
+        });
+        while self.past.len() > frames(frame.frame_s) {
+            self.past.pop_front();
         }
-        let share = 1.0 / self.parts.len() as f64;
-        self.parts.iter().fold(Part::default(), |sum, part| sum.plus(part, share))
+        self.path.clear();
+        self.path.extend(self.past.iter().flat_map(|past| &past.path));
+        let share = 1.0 / self.past.len() as f64;
+        self.past.iter().fold((Wrench::ZERO, DVec3::ZERO), |(load, acceleration), past| {
+            (load + past.load * share, acceleration + past.acceleration * share)
+        })
     }
 
     /// The law of what moves against the tool, and that of the lift, of the same places.
     fn laws(&mut self, frame: &FrameEnd<'_>, around: &Neighbourhood<'_>, pool: &Immersion) -> (Law, Law) {
         let (at, radius, stands) = (frame.felt_at, frame.radius, self.stands);
         self.stream.take(around.parcels(), NEAR * radius, (REACH - 1.0 - NEAR) * radius);
-        let farthest = frame.path.iter().map(|t| t.position.distance(at.position)).fold(0.0, f64::max);
+        let farthest = self.path.iter().map(|t| t.position.distance(at.position)).fold(0.0, f64::max);
         let spacing = (SPACING[0] * radius).max(SPACING[1] * frame.frame_s).max(farthest);
         let tabulate =
             |force: &dyn Fn(DVec3) -> LawNode| Law::tabulate(at.position, at.velocity, spacing, force);
@@ -119,13 +132,19 @@ impl Local {
     }
 }
 
+/// A frame that is averaged with others.
+#[derive(Debug)]
+struct Past {
+    load: Wrench,
+    /// Acceleration of the tool, m/s².
+    acceleration: DVec3,
+    path: Vec<ToolState>,
+}
+
 /// What a frame's force is to be made of: means over its path.
-#[derive(Debug, Default)]
 struct Part {
     /// The force but for the lift, N.
     force: DVec3,
-    /// The torque, N·m.
-    torque: DVec3,
     /// The law of what moves, N.
     law: DVec3,
     /// Acceleration of the tool, m/s².
@@ -136,19 +155,8 @@ struct Part {
 
 impl Part {
     fn is_finite(&self) -> bool {
-        let vectors = [self.force, self.torque, self.law, self.acceleration];
+        let vectors = [self.force, self.law, self.acceleration];
         vectors.iter().all(|v| v.is_finite()) && self.added_mass.is_finite()
-    }
-
-    /// This, and a share of `other`.
-    fn plus(self, other: &Self, share: f64) -> Self {
-        Self {
-            force: self.force + other.force * share,
-            torque: self.torque + other.torque * share,
-            law: self.law + other.law * share,
-            acceleration: self.acceleration + other.acceleration * share,
-            added_mass: self.added_mass + other.added_mass * share,
-        }
     }
 }
 
@@ -256,14 +264,8 @@ mod tests {
         }
     }
 
-    /// Four frames of 250 Hz are averaged; one of numbers that are none is handed on.
     #[test]
-    fn a_fast_fluid_is_averaged_over_a_sixtieth_of_a_second() {
-        let mut local = Local::default();
-        assert_eq!(frames(1.0 / 250.0), 4);
-        let part = |force| Part { force, ..Part::default() };
-        (0..10).for_each(|_| assert_eq!(local.mean(part(DVec3::X), 0.004).force, DVec3::X));
-        assert_eq!(local.mean(part(DVec3::X * 5.0), 0.004).force, DVec3::X * 2.0);
+    fn a_load_of_numbers_that_are_none_is_handed_on() {
         assert!(!felt(1.0, 1e-6, DVec3::NAN).is_finite());
     }
 }
