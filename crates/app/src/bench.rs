@@ -1,6 +1,7 @@
 //! `hapflow bench`: what the fluid costs.
 
 mod felt;
+mod filters;
 
 use crate::cli::{Bench, BenchArgs, WorkPrecisionArgs};
 use crate::draw::chart::{self, Chart, Series};
@@ -19,6 +20,7 @@ pub fn bench(args: &BenchArgs) -> Result<(), Failure> {
         Bench::Speed(format) => speed(format.json),
         Bench::WorkPrecision(args) => work_precision(args),
         Bench::Felt(args) => felt::felt(args),
+        Bench::Filters(args) => filters::filters(args),
     }
 }
 

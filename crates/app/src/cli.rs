@@ -88,7 +88,8 @@ pub struct RunArgs {
     /// How tool and fluid meet: local, direct, momentum (the thesis's).
     #[arg(long, value_name = "NAME")]
     pub coupling: Option<String>,
-    /// What smooths the force: none, bartlett-hann:11@fluid, boxcar:10@servo, butterworth:50, one-euro:5:0.5, auto.
+    /// What smooths the force: none, bartlett-hann:11@fluid, boxcar:10@servo, butterworth:50, one-euro:5:0.5, a preset (jet,
+    /// crossing, stirring), or auto.
     #[arg(long, value_name = "NAME")]
     pub filter: Option<String>,
     /// How the fluid is solved: wcsph, dfsph, muller (the thesis's).
@@ -165,6 +166,9 @@ pub struct ValidateArgs {
     /// repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
+    /// Time that a fluid frame takes to compute in the felt cases, in frames, 0 to 1 [default: 1].
+    #[arg(long, value_name = "FRAMES", allow_negative_numbers = true)]
+    pub fluid_delay: Option<f64>,
     /// Each case at its coarsest spacing and with its defaults only.
     #[arg(long)]
     pub quick: bool,
@@ -340,6 +344,8 @@ pub enum Bench {
     /// Every coupling with every filter at fluid rates of 30 to 250 Hz: the felt figures, spectra, what an error costs, what a
     /// tick costs; hours.
     Felt(FeltArgs),
+    /// Each filter and window against ripple, lag and overshoot, in a jet, crossing one, and stirring; two minutes.
+    Filters(FiltersArgs),
 }
 
 /// Arguments of `bench felt`.
@@ -354,6 +360,17 @@ pub struct FeltArgs {
     /// Couplings with their own filters at 60 Hz only, and a truth of two seeds.
     #[arg(long)]
     pub quick: bool,
+}
+
+/// Arguments of `bench filters`.
+#[derive(Debug, Args)]
+pub struct FiltersArgs {
+    /// Print one line of JSON for each use, coupling and filter instead of the table.
+    #[arg(long)]
+    pub json: bool,
+    /// Folder for a picture, filters.png: ripple against lag, one panel a use; made if absent.
+    #[arg(long, value_name = "DIR")]
+    pub plot: Option<PathBuf>,
 }
 
 /// Arguments of `bench work-precision`.

@@ -254,7 +254,7 @@ const RUN_AND_FLUID: &[Setting<Scene>] = &[
         unit: "",
         kind: Kind::Text,
         live: FIXED,
-        about: "What smooths the force: none, bartlett-hann:11@fluid, boxcar:10@servo, butterworth:50@servo, one-euro:5:0.5@servo …; \"auto\" takes the coupling's own.",
+        about: "What smooths the force: none, bartlett-hann:11@fluid, boxcar:10@servo, butterworth:50@servo, one-euro:5:0.5@servo …; jet, crossing or stirring, a preset for that use of momentum or direct; \"auto\" takes the coupling's own.",
         get: |s| Value::Text(s.run.filter.map_or("auto".into(), |f| f.to_string())),
         set: set_filter,
     },

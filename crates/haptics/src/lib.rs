@@ -45,8 +45,8 @@ pub use clutch::Clutch;
 pub use coupling::{Answer, BodyState, Coupling, CouplingKind, Drive, FrameEnd};
 pub use fault::FaultSet;
 pub use filter::{
-    DEFAULT_BUTTERWORTH_ORDER, DEFAULT_SERVO_RATE_HZ, Filter, FilterError, FilterSpec, MAX_BUTTERWORTH_ORDER,
-    MAX_TAPS, TapPlace, WindowKind,
+    DEFAULT_BUTTERWORTH_ORDER, DEFAULT_SERVO_RATE_HZ, FILTER_PRESETS, Filter, FilterError, FilterSpec,
+    MAX_BUTTERWORTH_ORDER, MAX_TAPS, TapPlace, WindowKind,
 };
 pub use forecast::Forecast;
 pub use gate::{MAX_TICK_S, ModelAge, SafetyGate};

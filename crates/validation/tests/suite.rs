@@ -94,3 +94,35 @@ fn a_setting_that_the_case_makes_itself_is_refused() {
     let text = plan.run_case(case, |_| {}).unwrap_err().to_string();
     assert!(text.starts_with("momentum sets fluid.rest_density = 1000 itself"), "{text}");
 }
+
+/// What of a felt crossing may be chosen, and that each choice reaches the fluid, the tool or the hand.
+#[test]
+fn a_felt_case_has_every_parameter_and_each_changes_something() {
+    let run = |set: &str| {
+        // In closed form, felt by one coupling: a second or so.
+        let sets = ["backend=analytic-jet", "coupling=local", set];
+        let plan = plan("felt-crossing", &sets, None, true);
+        let rows = plan.run_case(find("felt-crossing").unwrap(), |_| {}).unwrap();
+        rows.iter().map(|row| row.measure.measured).collect::<Vec<_>>()
+    };
+    let plain = run("speed=1.2");
+    for set in [
+        "diameter=0.016",
+        "speed=1.5",
+        "crossing_speed=0.3",
+        "tool_radius=0.012",
+        "hand_mass=0.3",
+        "hand_damping=8",
+        "hand_stiffness=600",
+        "gain=3",
+        "fluid_delay=0.5",
+    ] {
+        assert_ne!(run(set), plain, "{set}");
+    }
+    // Of a jet in closed form these are not part.
+    for set in ["offset=0.01", "viscosity=0.01"] {
+        plan("felt-crossing", &[set], None, true);
+    }
+    assert!(refused("felt-crossing", "fluid_delay=1.5").contains("fluid_delay = 1.5"));
+    assert!(refused("felt-crossing", "gain=-1").contains("gain = -1"));
+}

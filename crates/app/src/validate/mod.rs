@@ -54,10 +54,11 @@ fn chosen(args: &ValidateArgs) -> Result<Vec<&'static Case>, Failure> {
     Ok(CASES.iter().filter(wanted).collect())
 }
 
-/// Everything that was set, the solver first.
+/// Everything that was set, that with a word of its own first.
 fn settings(args: &ValidateArgs) -> Vec<String> {
     let solver = args.solver.iter().map(|s| format!("fluid.solver={s}"));
-    solver.chain(args.set.iter().cloned()).collect()
+    let delay = args.fluid_delay.iter().map(|frames| format!("fluid_delay={frames}"));
+    solver.chain(delay).chain(args.set.iter().cloned()).collect()
 }
 
 fn progress(setup: &Setup<'_>) {

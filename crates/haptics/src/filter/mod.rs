@@ -14,7 +14,8 @@ mod tests;
 
 pub use error::FilterError;
 pub use spec::{
-    DEFAULT_BUTTERWORTH_ORDER, DEFAULT_SERVO_RATE_HZ, FilterSpec, MAX_BUTTERWORTH_ORDER, MAX_TAPS, TapPlace,
+    DEFAULT_BUTTERWORTH_ORDER, DEFAULT_SERVO_RATE_HZ, FILTER_PRESETS, FilterSpec, MAX_BUTTERWORTH_ORDER,
+    MAX_TAPS, TapPlace,
 };
 pub use window::WindowKind;
 

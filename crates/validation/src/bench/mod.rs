@@ -10,7 +10,7 @@ mod skip;
 mod speed;
 mod work_precision;
 
-pub use crate::felt::{CostPoint, Crossing, Found, Spectrum, felt};
+pub use crate::felt::{CostPoint, Crossing, Filtered, Found, Spectrum, felt, filters};
 pub use machine::Machine;
 pub use skip::{Saving, skip};
 pub use speed::{Speed, speed};

@@ -50,6 +50,8 @@ pub const CASES: &[Case] = &[
     felt::CASES[3],
     felt::CASES[4],
     felt::CASES[5],
+    felt::CASES[6],
+    felt::CASES[7],
 ];
 
 /// The case of that name.

@@ -51,6 +51,23 @@ pub(crate) fn lag_and_gain(sent: &[DVec3], truth: &[DVec3], hz: f64, along: DVec
     [phase / (TAU * hz), a.hypot(b) / c.hypot(d)]
 }
 
+/// By how much `sent` is later than `truth`, negative for a lead, s: the shift at which both differ least, within 0.2 s, with a
+/// parabola through the least. Before and after a series its ends go on.
+pub(crate) fn shift_s(sent: &[DVec3], truth: &[DVec3]) -> f64 {
+    let last = sent.len().min(truth.len()) as i64 - 1;
+    let at = |n: i64| sent[n.clamp(0, last) as usize];
+    let apart =
+        |shift: i64| (0..=last).map(|n| at(n + shift).distance_squared(truth[n as usize])).sum::<f64>();
+    let least = |shifts: &mut dyn Iterator<Item = i64>| {
+        shifts.map(|s| (s, apart(s))).min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(s, _)| s)
+    };
+    let near = least(&mut (-200..=200).step_by(8));
+    let best = least(&mut (near - 8..=near + 8));
+    let [before, here, after] = [-1, 0, 1].map(|step| apart(best + step));
+    let curve = before - 2.0 * here + after;
+    1e-3 * (best as f64 + if curve > 0.0 { 0.5 * (before - after) / curve } else { 0.0 })
+}
+
 /// Size of the step at which `share` of the ticks with a new model stay, N.
 pub(crate) fn swap_step(sent: &[DVec3], fresh: &[bool], share: f64) -> f64 {
     let steps = sent.windows(2).zip(&fresh[1..]).filter(|(_, fresh)| **fresh);
@@ -85,6 +102,14 @@ mod tests {
         for late in [0.004, -0.003] {
             let [lag, gain] = lag_and_gain(&sine(2.0, late, 0.3), &sine(2.0, 0.0, 0.2), 2.0, DVec3::Y);
             assert!((lag - late).abs() < 1e-5 && (gain - 1.5).abs() < 1e-3, "{lag} {gain}");
+        }
+    }
+
+    #[test]
+    fn a_shift_is_found_to_a_fraction_of_a_tick() {
+        for late in [-0.0613, 0.0, 0.0042, 0.12] {
+            let found = shift_s(&sine(1.3, late, 0.2), &sine(1.3, 0.0, 0.2));
+            assert!((found - late).abs() < 3e-3, "{late}: {found}");
         }
     }
 

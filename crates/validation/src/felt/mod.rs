@@ -8,9 +8,11 @@ mod crossing;
 mod energy;
 mod entry;
 mod figures;
+mod filters;
 mod jet;
 mod lag;
 mod pool;
+mod release;
 mod spectrum;
 mod still;
 mod stir;
@@ -24,6 +26,16 @@ pub use spectrum::Spectrum;
 
 use crate::Case;
 
+pub use filters::{Filtered, filters};
+
 /// The cases, in the order of the table.
-pub(crate) const CASES: [Case; 6] =
-    [still::CASE, crossing::CASE, lag::CASE, entry::CASE, stir::CASE, energy::CASE];
+pub(crate) const CASES: [Case; 8] = [
+    still::CASE,
+    crossing::CASE,
+    lag::CASE,
+    entry::CASE,
+    stir::CASE,
+    release::POOL,
+    release::JET,
+    energy::CASE,
+];

@@ -55,6 +55,11 @@ fn symmetry(bench: &Bench<'_>, scene: &Scene, [a, b]: [f64; 2]) -> Measure {
     bench.mark(measure, scene, None, Some(0.02))
 }
 
+/// `felt`, with a hand that holds still.
+pub(super) fn script(_: &Setup<'_>, felt: &Scene) -> Scene {
+    scripted(felt, DVec3::ZERO, &[], 1.0)
+}
+
 /// What the hand feels of it.
 pub(super) struct Held {
     scene: Scene,
@@ -64,7 +69,7 @@ pub(super) struct Held {
 impl Held {
     /// By `way`.
     pub fn by(bench: &mut Bench<'_>, way: &Way) -> Result<Self, ValidationError> {
-        let scene = scripted(&bench.felt(way)?, DVec3::ZERO, &[], 1.0);
+        let scene = script(bench.setup, &bench.felt(way)?);
         let trace = bench.run(&scene)?;
         Ok(Self { scene, trace })
     }

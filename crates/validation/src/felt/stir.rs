@@ -7,6 +7,7 @@ use crate::run::Report;
 use crate::{Case, Measure, Setup, ValidationError};
 use glam::DVec3;
 use hapflow_devices::Segment;
+use hapflow_engine::Scene;
 use std::f64::consts::TAU;
 
 /// Radius of the circle, in edges, and height over the floor.
@@ -37,7 +38,7 @@ pub(super) const CASE: Case = Case {
 };
 
 fn run(setup: &Setup<'_>) -> Result<Report, ValidationError> {
-    let mut bench = Bench::new(setup, pool::scene(setup, DVec3::new(PLACE[0], PLACE[1], 0.0)))?;
+    let mut bench = Bench::new(setup, scene(setup))?;
     let mut measures = Vec::new();
     for way in bench.ways()? {
         measures.extend(stirred(&mut bench, &way)?);
@@ -45,10 +46,19 @@ fn run(setup: &Setup<'_>) -> Result<Report, ValidationError> {
     Ok(bench.report(measures))
 }
 
-fn stirred(bench: &mut Bench<'_>, way: &Way) -> Result<Vec<Measure>, ValidationError> {
-    let felt = bench.felt(way)?;
-    let (edge, speed) = (bench.setup.number("edge"), bench.setup.number("speed"));
-    let hz = speed / (TAU * PLACE[0] * edge);
+/// The pool, with the ball where the stirring begins.
+pub(super) fn scene(setup: &Setup<'_>) -> Scene {
+    pool::scene(setup, DVec3::new(PLACE[0], PLACE[1], 0.0))
+}
+
+/// Turns a second.
+fn hz(setup: &Setup<'_>) -> f64 {
+    setup.number("speed") / (TAU * PLACE[0] * setup.number("edge"))
+}
+
+/// `felt`, with a hand that stirs.
+pub(super) fn script(setup: &Setup<'_>, felt: &Scene) -> Scene {
+    let (edge, hz) = (setup.number("edge"), hz(setup));
     let circle = |share: f64, duration_s| {
         let centre = DVec3::Y * (PLACE[1] * edge);
         Segment::Circle { centre, frequency_hz: share * hz, duration_s }
@@ -56,10 +66,14 @@ fn stirred(bench: &mut Bench<'_>, way: &Way) -> Result<Vec<Measure>, ValidationE
     let rise = RISE.map(|share| circle(share, RISE_S));
     let fall = RISE.map(|share| circle(1.0 - share, RISE_S));
     let segments = [&rise[..], &[circle(1.0, TURNS / hz)], &fall[..]].concat();
-    let scene = scripted(&felt, felt.tool.position, &segments, REST);
+    scripted(felt, felt.tool.position, &segments, REST)
+}
+
+fn stirred(bench: &mut Bench<'_>, way: &Way) -> Result<Vec<Measure>, ValidationError> {
+    let scene = script(bench.setup, &bench.felt(way)?);
     let trace = bench.run(&scene)?;
     let truth = bench.truth_of(&trace)?;
-    let parts = Parts::new(1.0 / hz);
+    let parts = Parts::new(1.0 / hz(bench.setup));
     let [sent, mean] = [&trace.sent, &truth.mean].map(|series| parts.forces(series, &trace.path));
     // Over the resistance at the beginning: in thick fluid what comes after is next to nothing.
     let scale = parts.resistance(&truth.mean, &trace.path).abs();
@@ -74,7 +88,6 @@ fn stirred(bench: &mut Bench<'_>, way: &Way) -> Result<Vec<Measure>, ValidationE
     let stir = if judged { stir.goal(0.15) } else { stir };
     let told =
         |name, k: usize| bench.mark(Measure::zero(name, "1", errors[k], 1.0), &scene, Some(floor(k)), None);
-    let level = |series: &[DVec3]| series.iter().map(|f| DVec3::new(f.x, 0.0, f.z)).collect::<Vec<_>>();
     let error = |a: &[DVec3], b: &[DVec3]| {
         let begin = (1e3 * WARM_UP) as usize;
         figures::force_error(&level(&a[begin..]), &level(&b[begin..]))
@@ -87,6 +100,11 @@ fn stirred(bench: &mut Bench<'_>, way: &Way) -> Result<Vec<Measure>, ValidationE
         told("decay_error", 2),
         bench.mark(whole, &scene, Some(truth.floor(error)), None),
     ])
+}
+
+/// What of a force is level: the lift is not of the stirring.
+pub(super) fn level(series: &[DVec3]) -> Vec<DVec3> {
+    series.iter().map(|f| DVec3::new(f.x, 0.0, f.z)).collect()
 }
 
 /// The parts of a stirring, ticks.
