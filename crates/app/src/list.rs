@@ -35,16 +35,33 @@ pub fn devices(json: bool) {
     for device in devices {
         let there = device.presence();
         say(&format!("{:<16} {}", device.name, device.about));
-        let kind = if device.hardware { "hardware" } else { "simulated" };
-        let (sensed, driven) = (device.sensed_dof, device.driven_dof);
-        let felt = if driven == 0 { String::new() } else { format!(", up to {} N", device.max_force_n) };
-        say(&format!("{:<16} {kind}, senses {sensed} and drives {driven} degrees of freedom{felt}", ""));
+        say(&format!("{:<16} {}", "", capabilities(&device)));
         match there {
             Ok(found) => say(&format!("{:<16} present: {found}", "")),
             Err(error) => say(&format!("{:<16} absent: {error}", "")),
         }
     }
     say("\nChoose one with `hapflow run --device NAME`; `--motion FILE` replays a recorded hand.");
+}
+
+/// What it can, without the limits that it does not have.
+fn capabilities(device: &DeviceInfo) -> String {
+    let kind = if device.hardware { "hardware" } else { "simulated" };
+    let (sensed, driven) = (device.sensed_dof, device.driven_dof);
+    let mut text = format!("{kind}, senses {sensed} and drives {driven} degrees of freedom");
+    let limits = [
+        (device.max_force_n, "N"),
+        (device.max_stiffness_n_per_m, "N/m"),
+        (device.max_damping_n_s_per_m, "N·s/m"),
+    ];
+    for (limit, unit) in limits.into_iter().filter(|(limit, _)| *limit > 0.0) {
+        text += &format!(", up to {limit} {unit}");
+    }
+    let [x, y, z] = device.workspace_m.map(|size| (1e3 * size).round());
+    if x > 0.0 {
+        text += &format!(", over {x} x {y} x {z} mm");
+    }
+    text + &format!(", {} Hz", device.rate_hz)
 }
 
 fn device_json(device: &DeviceInfo) -> serde_json::Value {

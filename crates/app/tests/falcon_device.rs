@@ -115,7 +115,20 @@ fn every_device_is_listed_with_what_it_can() {
             device["present"].is_boolean() && device["found"].as_str().is_some_and(|text| !text.is_empty())
         );
         assert!(device["hardware"].as_bool().unwrap() || device["present"].as_bool().unwrap());
+        let numbers = [
+            "sensed_dof",
+            "driven_dof",
+            "max_force_N",
+            "max_stiffness_N_per_m",
+            "max_damping_N_s_per_m",
+            "rate_Hz",
+        ];
+        assert!(numbers.iter().all(|key| device[key].is_number()), "{device}");
+        assert_eq!(device["workspace_m"].as_array().unwrap().len(), 3);
     }
+    let (told, _) = told(&hapflow(&["devices"]));
+    let falcon = "hardware, senses 3 and drives 3 degrees of freedom, up to 8 N, up to 3000 N/m, up to 20 N·s/m, over 100 x 100 x 100 mm, 1000 Hz";
+    assert!(told.contains(falcon), "{told}");
 }
 
 /// Where there is no Falcon, it says so, and what to do.

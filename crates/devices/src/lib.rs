@@ -17,6 +17,7 @@ mod at_end;
 mod device;
 mod error;
 pub mod falcon;
+mod file;
 mod hand;
 mod hand_settings;
 pub mod hid;
@@ -33,6 +34,7 @@ pub mod sdk;
 pub use at_end::AtEnd;
 pub use device::{HapticDevice, Pacing};
 pub use error::DeviceError;
+pub use file::{read_at_most, read_text_at_most};
 pub use hand::SimulatedHand;
 pub use hand_settings::{HandPreset, HandSettings};
 pub use info::{

@@ -4,12 +4,16 @@
 //! remarks.
 
 use crate::MotionSample;
+use crate::file::ShortLines;
 use csv::{ErrorKind, Reader, ReaderBuilder, StringRecord, Trim};
 use glam::DVec3;
 use std::io::Read;
 
 /// Most samples of a motion: almost three hours at 1 kHz, 720 MB.
 pub const MAX_SAMPLES: usize = 10_000_000;
+
+/// Longest line of a file, bytes.
+const MAX_LINE_BYTES: usize = 65_536;
 
 const COLUMNS: [&str; 4] = ["time_s", "x_m", "y_m", "z_m"];
 /// Largest size of a number in each of them: eleven days, and more than any hand reaches.
@@ -98,6 +102,7 @@ pub enum MotionError {
 
 /// Reads samples; `file` is for the errors.
 pub(crate) fn read_samples(source: impl Read, file: &str) -> Result<Vec<MotionSample>, MotionError> {
+    let source = ShortLines::new(source, MAX_LINE_BYTES);
     let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(source);
     let columns = find_columns(&mut reader, file)?;
     let mut samples: Vec<MotionSample> = Vec::new();

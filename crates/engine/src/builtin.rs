@@ -1,7 +1,11 @@
 //! The shipped scenes and meshes, and scenes by name or path.
 
 use crate::{Scene, SceneError, scene_file};
+use hapflow_devices::read_text_at_most;
 use std::path::Path;
+
+/// The largest scene file, bytes.
+const MOST_BYTES: u64 = 16 << 20;
 
 const SHIPPED: &[(&str, &str)] = &[
     ("tap", include_str!("../../../scenes/tap.toml")),
@@ -37,7 +41,7 @@ pub fn load(name: &str) -> Result<Scene, SceneError> {
     if let Some((_, text)) = SHIPPED.iter().find(|(known, _)| *known == name) {
         return scene_file::parse(text, name);
     }
-    let text = std::fs::read_to_string(Path::new(name)).map_err(|cause| SceneError::NotFound {
+    let text = read_text_at_most(Path::new(name), MOST_BYTES).map_err(|cause| SceneError::NotFound {
         name: name.into(),
         shipped: SHIPPED.iter().map(|s| s.0).collect::<Vec<_>>().join(", "),
         cause,

@@ -2,6 +2,7 @@
 
 use crate::builtin;
 use glam::DVec3;
+use hapflow_devices::read_at_most;
 use hapflow_fluid::{MAX_TRIANGLES, Mesh};
 use std::path::Path;
 
@@ -30,11 +31,7 @@ pub(crate) fn read(path: &Path) -> Result<Mesh, String> {
 }
 
 fn load(path: &Path) -> Result<Vec<u8>, String> {
-    let size = std::fs::metadata(path).map_err(|e| e.to_string())?.len();
-    if size > MOST_BYTES {
-        return Err(format!("it has {size} bytes; there may be {MOST_BYTES}"));
-    }
-    std::fs::read(path).map_err(|e| e.to_string())
+    read_at_most(path, MOST_BYTES).map_err(|e| e.to_string())
 }
 
 /// Line (from 1, or 0 for none) and fault.

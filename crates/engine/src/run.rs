@@ -225,6 +225,8 @@ pub fn real_time(scene: &Scene, options: RunOptions<'_>) -> Result<Outcome, Scen
     let status = RealtimeStatus { memory, ..session.realtime_status().unwrap_or_default() };
     let (ticks, pace) = session.close();
     run.outcome.lost = session.take_lost();
+    // What ended the servo stands in no tick.
+    run.outcome.faults |= session.control().faults();
     // Refused or not, nothing is locked any more.
     let _ = unlock_memory();
     while let Some(report) = tape.pop() {

@@ -1,8 +1,12 @@
 //! CSV files with a header: columns are read by name, and others are added.
 
 use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim, Writer};
+use hapflow_devices::read_at_most;
 use std::fmt::Display;
 use std::path::Path;
+
+/// The largest file that is read, bytes: some million rows.
+const MAX_FILE_BYTES: u64 = 1 << 28;
 
 /// Why a table was refused. Lines count from 1, the header's.
 #[derive(Debug, thiserror::Error)]
@@ -82,7 +86,7 @@ impl Table {
     /// Reads a file.
     pub fn read(path: &Path) -> Result<Self, TableError> {
         let file = path.display().to_string();
-        let text = std::fs::read(path)
+        let text = read_at_most(path, MAX_FILE_BYTES)
             .map_err(|cause| TableError::Open { file: file.clone(), cause: cause.to_string() })?;
         Self::parse(&text, file)
     }

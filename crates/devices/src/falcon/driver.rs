@@ -196,7 +196,7 @@ impl Falcon {
     /// off. Thread: main, waits for the person.
     ///
     /// # Errors
-    /// [`FalconError`] if the arms stand still for half a minute, the device is lost, or it was broken off.
+    /// [`FalconError`] if the arms stand still for half a minute, their counts have no pose, the device is lost, or it was broken off.
     pub fn home(&mut self, tell: &mut dyn FnMut(&str) -> ControlFlow<()>) -> Result<(), FalconError> {
         self.command = Command { homing: true, leds: Leds::RED, motors: [0; 3] };
         let mut moved = (self.exchange.line.now_ns(), [0; 3]);
@@ -216,7 +216,8 @@ impl Falcon {
             if far(moved.1, reply.encoders) {
                 moved = (now, reply.encoders);
             } else if now >= moved.0 + STILL_NS {
-                return Err(FalconError::NeverHomes);
+                let found = reply.homed == Reply::HOMED;
+                return Err(if found { FalconError::NoPose } else { FalconError::NeverHomes });
             }
         }
         self.velocity.reset();

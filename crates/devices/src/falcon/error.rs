@@ -100,6 +100,11 @@ pub enum FalconError {
          grip all the way out and push it straight in"
     )]
     NeverHomes,
+    /// All marks are found, but nobody can hold the grip where its counts say.
+    #[error(
+        "the Falcon is homed, but no pose has its encoder counts: check the lengths and zero angles of falcon.geometry (--geometry)"
+    )]
+    NoPose,
     /// The user did not want to wait.
     #[error("stopped before the Falcon was homed")]
     Stopped,

@@ -1,5 +1,6 @@
 //! Lengths, angles and ratios of a Falcon, and the files that carry them.
 
+use crate::read_text_at_most;
 use hapflow_haptics::{RangeError, check_range};
 use std::path::Path;
 use toml::{Table, Value};
@@ -94,11 +95,12 @@ impl Geometry {
         if let Some((_, text)) = SHIPPED.into_iter().find(|(known, _)| *known == name) {
             return Self::parse(text, name);
         }
-        let text = read(Path::new(name)).map_err(|cause| GeometryError::Open {
-            name: name.to_owned(),
-            known: Self::NAMES.join(", "),
-            cause: cause.to_string(),
-        })?;
+        let text =
+            read_text_at_most(Path::new(name), MAX_FILE_BYTES).map_err(|cause| GeometryError::Open {
+                name: name.to_owned(),
+                known: Self::NAMES.join(", "),
+                cause: cause.to_string(),
+            })?;
         Self::parse(&text, name)
     }
 
@@ -183,13 +185,6 @@ impl Geometry {
     fn deg_per_count(&self) -> f64 {
         360.0 / (self.encoder_counts * self.gear_ratio)
     }
-}
-
-fn read(path: &Path) -> std::io::Result<String> {
-    if std::fs::metadata(path)?.len() > MAX_FILE_BYTES {
-        return Err(std::io::Error::other("it is longer than 65536 bytes"));
-    }
-    std::fs::read_to_string(path)
 }
 
 /// A file's keys, each of which is taken once.

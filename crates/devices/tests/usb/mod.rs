@@ -50,6 +50,8 @@ pub struct Side {
     pub deaf: AtomicBool,
     /// Programs that have the device open.
     pub clients: AtomicUsize,
+    /// One of them has its interface.
+    claimed: AtomicBool,
     origin: Instant,
     packets: AtomicUsize,
     written: AtomicUsize,
@@ -173,6 +175,7 @@ fn plug(root: &Path, address: u8, falcon: EmulatedFalcon) -> io::Result<Arc<Side
         noise_every: AtomicUsize::new(0),
         deaf: AtomicBool::new(false),
         clients: AtomicUsize::new(0),
+        claimed: AtomicBool::new(false),
         origin: Instant::now(),
         packets: AtomicUsize::new(0),
         written: AtomicUsize::new(0),
@@ -239,6 +242,8 @@ struct Client {
     side: Arc<Side>,
     /// Whether it has asked for anything: the preload library also connects where a file could not be opened.
     counted: bool,
+    /// Whether it has the interface.
+    claims: bool,
     /// IN transfers that wait for a packet.
     pending: VecDeque<Urb>,
     /// Transfers that never end by themselves.
@@ -249,6 +254,7 @@ struct Client {
 
 impl Drop for Client {
     fn drop(&mut self) {
+        self.release();
         self.side.clients.fetch_sub(usize::from(self.counted), Ordering::AcqRel);
     }
 }
@@ -263,7 +269,7 @@ fn refuse(errno: i32) -> (i64, i32) {
 impl Client {
     fn new(stream: UnixStream, side: Arc<Side>) -> Self {
         let (pending, stuck, ended) = (VecDeque::new(), VecDeque::new(), VecDeque::new());
-        Self { stream, side, counted: false, pending, stuck, ended }
+        Self { stream, side, counted: false, claims: false, pending, stuck, ended }
     }
 
     fn serve(mut self) {
@@ -277,6 +283,12 @@ impl Client {
             if self.send([3, result as u64, errno as u64]).is_err() {
                 return;
             }
+        }
+    }
+
+    fn release(&mut self) {
+        if std::mem::take(&mut self.claims) {
+            self.side.claimed.store(false, Ordering::Release);
         }
     }
 
@@ -313,9 +325,19 @@ impl Client {
         match request {
             // GET_CAPABILITIES
             0x8004_551A => self.store(argument, &0x3D_u32.to_ne_bytes()).map(|()| DONE),
-            // CLAIM, RELEASE, CLEAR_HALT, RESET, RESETEP, SETINTERFACE, SETCONFIGURATION, DISCONNECT_CLAIM
-            0x8004_550F | 0x8004_5510 | 0x8004_5515 | 0x5514 | 0x8004_5503 | 0x8008_5504 | 0x8004_5505
-            | 0x8108_551B => Ok(DONE),
+            // CLAIM, DISCONNECT_CLAIM
+            0x8004_550F | 0x8108_551B => {
+                let others = self.side.claimed.swap(true, Ordering::AcqRel) && !self.claims;
+                self.claims |= !others;
+                Ok(if others { refuse(libc::EBUSY) } else { DONE })
+            }
+            // RELEASE
+            0x8004_5510 => {
+                self.release();
+                Ok(DONE)
+            }
+            // CLEAR_HALT, RESET, RESETEP, SETINTERFACE, SETCONFIGURATION
+            0x8004_5515 | 0x5514 | 0x8004_5503 | 0x8008_5504 | 0x8004_5505 => Ok(DONE),
             // GETDRIVER
             0x4104_5508 => Ok(refuse(libc::ENODATA)),
             0x8038_550A => self.submit(argument),

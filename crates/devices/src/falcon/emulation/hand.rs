@@ -1,6 +1,6 @@
 //! The hand at an emulated Falcon, and the arms that it moves.
 
-use crate::falcon::{Command, Kinematics, Reply, torques_of};
+use crate::falcon::{Command, FalconError, Kinematics, Reply, torques_of};
 use crate::{
     AtEnd, DeviceError, HandPreset, HandSettings, HapticDevice, Segment, SimulatedHand, TargetScript,
 };
@@ -11,8 +11,8 @@ use hapflow_haptics::check_range;
 const START: DVec3 = DVec3::new(0.0, 0.0, 0.115);
 /// The middle of the workspace, m.
 const MIDDLE: DVec3 = DVec3::new(0.0, 0.0, 0.125);
-/// Counts at which the arms find their marks on their way in. An assumption: nobody has published them.
-const MARKS: [f64; 3] = [640.0, 600.0, 620.0];
+/// Angles at which the arms find their marks on their way in, degrees. An assumption: nobody has published them.
+const MARKS_DEG: [f64; 3] = [58.3, 56.9, 57.6];
 /// The grip's weight, kg, within what is guessed of the real one; and its dry friction, N, likewise.
 const GRIP_KG: f64 = 0.12;
 const FRICTION_N: f64 = 0.3;
@@ -46,13 +46,13 @@ impl EmulatedHand {
     /// supply is not plugged in: the arms neither move nor find their marks.
     ///
     /// # Errors
-    /// [`DeviceError::Script`] if the script cannot be followed.
+    /// [`DeviceError`] if the script cannot be followed, or the arms cannot hold the grip.
     pub fn new(kinematics: Kinematics, script: &[Segment], powered: bool) -> Result<Self, DeviceError> {
         let to = |z: f64, duration_s| Segment::MoveTo { position: DVec3::Z * z, duration_s };
         let homing = [Segment::Hold { duration_s: 0.5 }, to(0.172, 1.0), to(0.1, 1.5), to(MIDDLE.z, 1.0)];
         let script = TargetScript::new(START, &[&homing, script].concat(), AtEnd::Hold)?;
         let hand = SimulatedHand::new(HandSettings::preset(HandPreset::Normal), script)?;
-        let counts = counts(&kinematics, START).unwrap_or_default();
+        let counts = counts(&kinematics, START).ok_or(FalconError::NoPose)?;
         Ok(Self {
             kinematics,
             hand,
@@ -138,8 +138,9 @@ impl EmulatedHand {
 
     fn find_marks(&mut self) {
         let before = std::mem::replace(&mut self.seen, self.counts);
+        let marks = self.kinematics.geometry().counts(MARKS_DEG.map(f64::to_radians));
         for arm in 0..3 {
-            if before[arm] > MARKS[arm] && self.counts[arm] <= MARKS[arm] && self.homed & 1 << arm == 0 {
+            if before[arm] > marks[arm] && self.counts[arm] <= marks[arm] && self.homed & 1 << arm == 0 {
                 self.homed |= 1 << arm;
                 self.base[arm] = 0.0;
             }
