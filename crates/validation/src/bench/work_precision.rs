@@ -23,13 +23,15 @@ fn choices(speed: f64) -> Vec<(String, Vec<String>)> {
     let set = |path: &str, value: f64| format!("{path}={value}");
     let of = |name: String, sets: Vec<String>| (name, sets);
     let solver = |name: &str| format!("fluid.solver={name}");
-    let sounds = [5.0, 10.0, 20.0]
-        .map(|n| of(format!("wcsph, c = {n} v"), vec![solver("wcsph"), set("fluid.sound_speed", n * speed)]));
+    let sound = |n: f64| vec![solver("wcsph"), set("fluid.sound_speed", n * speed)];
+    let sounds = [3.0, 5.0, 10.0, 20.0].map(|n| of(format!("wcsph, c = {n} v"), sound(n)));
+    let narrow =
+        of("wcsph, c = 3 v, H = 2.3 dx".into(), [sound(3.0), vec![set("fluid.support", 2.3)]].concat());
     let tolerances = [0.1, 0.02, 0.005]
         .map(|t| of(format!("dfsph, tolerance {t}"), vec![solver("dfsph"), set("fluid.tolerance", t)]));
     let stiffnesses = [100.0, 1000.0]
         .map(|k| of(format!("muller, k = {k} m²/s²"), vec![solver("muller"), set("fluid.stiffness", k)]));
-    sounds.into_iter().chain(tolerances).chain(stiffnesses).collect()
+    sounds.into_iter().chain([narrow]).chain(tolerances).chain(stiffnesses).collect()
 }
 
 /// One point: a choice at a resolution.
