@@ -3,13 +3,13 @@
 use crate::caller::{LogFunction, LogUser};
 use crate::code::{Code, Failure};
 use crate::handle::Handle;
-use hapflow_engine::{Control, Session};
+use hapflow_engine::{Control, Scene, Session};
 
 /// There is none.
 pub enum Log {}
 
 impl Log {
-    pub fn open(function: LogFunction, _: LogUser, _: usize) -> Result<Option<Self>, Failure> {
+    pub fn open(function: LogFunction, _: LogUser, _: &Scene) -> Result<Option<Self>, Failure> {
         if function.is_null() {
             return Ok(None);
         }
