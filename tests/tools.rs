@@ -71,8 +71,9 @@ fn each_tool_feels_its_own_jet() {
         let s = scene("analytic-jet");
         hapflow::fluid::jet_force(&s.sources[tap], 1000.0, s.fluid.gravity, radius, at, DVec3::ZERO)
     };
-    assert!((felt[0] - expected(0, 0.015, left)).length() < 1e-9);
-    assert!((felt[1] - expected(1, 0.02, right)).length() < 1e-9);
+    // The coupling's law is of 32-bit numbers.
+    assert!((felt[0] - expected(0, 0.015, left)).length() < 1e-6);
+    assert!((felt[1] - expected(1, 0.02, right)).length() < 1e-6);
     // With particles: about what each feels where the other tool is far away.
     let both = forces(&mut open(&scene("cpu"), 2), &[left, right], 60);
     let away = DVec3::new(0.0, 0.0, 0.09);
@@ -111,7 +112,11 @@ fn settings_and_faults_reach_each_tool() {
     control.emergency_stop();
     assert_eq!(run(&mut servos), [0.0, 0.0]);
     control.clear_faults();
-    assert_eq!(run(&mut servos), felt, "every gate is cleared");
+    let again = run(&mut servos);
+    assert!(
+        again.iter().zip(felt).all(|(a, b)| (a - b).abs() < 1e-9),
+        "every gate is cleared: {again:?}, {felt:?}"
+    );
 }
 
 #[test]
