@@ -184,7 +184,9 @@ fn respace(mut config: FluidConfig, factor: f64) {
     let (now, given) = (volume(&mut run) / old_volume, energy(&mut run));
     assert!((now - 1.0).abs() < 0.1, "{what}: the volume became {now} of what it was");
     assert!(given < lift(config.settings.solver) * before, "{what}: {before} J became {given} J");
-    assert_calm(&mut run, natural.max(natural_speed(&config)), &what);
+    // A drop of `dfsph` may be squirted out between particles that have grown: how fast hangs on the last bit of the sums.
+    let splash = if config.settings.solver == Solver::Dfsph { 1.2 } else { 1.0 };
+    assert_calm(&mut run, splash * natural.max(natural_speed(&config)), &what);
 }
 
 #[test]
