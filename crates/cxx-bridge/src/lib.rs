@@ -1,7 +1,7 @@
 //! Sessions of the C ABI for C++ by [cxx](https://cxx.rs): `libhapflow_cxx`, a library beside the one `libhapflow` of the
 //! process, whose functions it calls and whose handles it takes. `cpp/include/hapflow/cxx.hpp` is the C++ on top of it.
 //!
-//! Every bridged function gives a `Result` and ends its panics itself ([`fence`]). Those of class \[servo\] allocate
+//! Every bridged function gives a `Result` and ends its panics itself (`fence`). Those of class \[servo\] allocate
 //! nothing, also when the tick is refused: a refusal is their value.
 
 mod fence;

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 /// By how much what coupling `local` answers to the hand's place, and to its velocity, comes late until it acts, s: measured by a
 /// test, with a device's velocity estimate of 70 Hz and its transport of 2 ms. The parabola through the hand's last places makes
 /// up for most of it.
-pub const LOCAL_DELAYS_S: [f64; 2] = [0.0016, 0.006];
+pub const LOCAL_DELAYS_S: [f64; 2] = [0.0016, 0.016];
 
 /// Largest damping (N·s/m) that may be rendered `delay_s` late on a `mass_kg` that nobody holds: half of that at which
 /// m v̇ = −b v(t − T) begins to swing, b T/m = π/2.
