@@ -71,9 +71,8 @@ fn each_tool_feels_its_own_jet() {
         let s = scene("analytic-jet");
         hapflow::fluid::jet_force(&s.sources[tap], 1000.0, s.fluid.gravity, radius, at, DVec3::ZERO)
     };
-    // The coupling's law is of 32-bit numbers.
-    assert!((felt[0] - expected(0, 0.015, left)).length() < 1e-6);
-    assert!((felt[1] - expected(1, 0.02, right)).length() < 1e-6);
+    assert!((felt[0] - expected(0, 0.015, left)).length() < 1e-9);
+    assert!((felt[1] - expected(1, 0.02, right)).length() < 1e-9);
     // With particles: about what each feels where the other tool is far away.
     let both = forces(&mut open(&scene("cpu"), 2), &[left, right], 60);
     let away = DVec3::new(0.0, 0.0, 0.09);

@@ -69,7 +69,9 @@ fn shipped_scenes_run() {
         let mut scene = load(name).unwrap();
         settings::set(&mut scene, "run.duration", &Value::Number(0.15)).unwrap();
         let outcome = run(&scene, 2);
-        assert!(outcome.recording.rows.len() == 150 && outcome.fluid.particles > 30, "{name}");
+        // A spout has given less than a pool or a tap by then.
+        let least = if *name == "pour" { 30 } else { 100 };
+        assert!(outcome.recording.rows.len() == 150 && outcome.fluid.particles > least, "{name}");
         assert!(outcome.faults.is_empty(), "{name}: {}", outcome.faults);
         assert_eq!(outcome.fluid.degraded, 0, "{name}");
     }

@@ -4,6 +4,7 @@ mod felt;
 mod filters;
 
 use crate::cli::{Bench, BenchArgs, WorkPrecisionArgs};
+use crate::cores::cores;
 use crate::draw::chart::{self, Chart, Series};
 use crate::run::Failure;
 use hapflow_validation::bench::{self, Machine, Point, Saving, Speed};
@@ -93,8 +94,8 @@ fn speed_line(s: &Speed) -> String {
 }
 
 fn work_precision(args: &WorkPrecisionArgs) -> Result<(), Failure> {
-    eprintln!("four cases with eight choices of settings each, at one resolution or three; up to an hour");
-    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    eprintln!("four cases with ten choices of settings each, at one resolution or three; up to an hour");
+    let threads = cores();
     let mut charts = Vec::new();
     if !args.json {
         say(&format!(

@@ -6,6 +6,7 @@
 
 mod bench;
 mod cli;
+mod cores;
 mod doctor;
 mod draw;
 mod falcon;

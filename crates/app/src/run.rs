@@ -192,7 +192,7 @@ fn step(args: &RunArgs, scene: &Scene, parts: Parts, realtime: bool) -> Result<O
         meter.borrow().show(&p);
         stop.flow()
     };
-    let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let all = crate::cores::cores();
     let threads = if args.threads == 0 && !realtime { all } else { args.threads };
     let record = args.record.as_deref();
     let options = RunOptions {

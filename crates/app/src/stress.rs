@@ -1,6 +1,7 @@
 //! `hapflow stress`: random scenes that are shaken by all means, and what came of each.
 
 use crate::cli::{StressArgs, Stressed};
+use crate::cores::cores;
 use crate::draw::chart::{self, Chart, Series};
 use crate::run::Failure;
 use hapflow_fluid::Solver;
@@ -25,7 +26,7 @@ pub fn stress(args: &StressArgs) -> Result<bool, Failure> {
 
 fn trials(args: &StressArgs) -> bool {
     let seeds: Vec<u64> = (0..args.trials).map(|k| args.seed.wrapping_add(k)).collect();
-    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let threads = cores();
     let mut failed = 0;
     let subject = match args.what {
         Stressed::Fluid => Subject::Fluid,

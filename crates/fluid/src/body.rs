@@ -108,6 +108,15 @@ impl BodyLoad {
         self.viscous_force += other.viscous_force * scale;
         self.torque += other.torque * scale;
     }
+
+    /// Adds to `loads` what each chunk of particles gave, in the order of the chunks: `parts` has `loads.len()` for each.
+    pub(crate) fn add_chunks(loads: &mut [Self], parts: &[Self]) {
+        for part in parts.chunks(loads.len().max(1)) {
+            for (load, part) in loads.iter_mut().zip(part) {
+                load.add_scaled(part, 1.0);
+            }
+        }
+    }
 }
 
 /// A body while a frame is stepped.

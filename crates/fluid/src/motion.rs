@@ -86,11 +86,7 @@ impl<S: Fn(usize) -> Vec3 + Sync> Motion<'_, S> {
         parts.resize(chunks * bodies, BodyLoad::default());
         let each = p.runs(CHUNK).zip(&mut *moved).zip(parts.par_chunks_mut(bodies));
         each.for_each(|((run, moved), loads)| *moved = self.chunk(run, loads));
-        for part in parts.chunks(bodies) {
-            for (load, part) in loads.iter_mut().zip(part) {
-                load.add_scaled(part, 1.0);
-            }
-        }
+        BodyLoad::add_chunks(loads, parts);
         let all = |a: Moved, b: &Moved| Moved {
             fastest: a.fastest.max(b.fastest),
             degraded: a.degraded || b.degraded,

@@ -69,8 +69,9 @@ impl Coupling for Local {
         self.stands = pool.share();
         let (load, acceleration) = self.remember(frame);
         let (moving, lift) = self.laws(frame, around, &pool);
+        let lifted = mean_force(&lift, &self.path);
         let part = Part {
-            force: load.force - mean_force(&lift, &self.path),
+            force: load.force - lifted,
             law: mean_force(&moving, &self.path),
             acceleration,
             added_mass: pool.added_mass(frame.volume, frame.radius, frame.body.position),
@@ -80,8 +81,10 @@ impl Coupling for Local {
             return Answer { wrench: frame.load, ..Answer::default() };
         }
         let (factor, added_mass) = self.fit.take(&part, frame.frame_s);
-        let force = part.force + part.acceleration * added_mass - part.law * factor;
         let law = moving.scaled(factor).plus(&lift.scaled(frame.buoyancy_scale));
+        // Less the very law that is rendered, so that a tool at rest gets its load to the last bit.
+        let rest = load.force + acceleration * added_mass - mean_force(&law, &self.path);
+        let force = rest + lifted * (frame.buoyancy_scale - 1.0);
         Answer { wrench: Wrench { force, ..load }, law, added_mass }
     }
 }

@@ -1,9 +1,10 @@
 //! `hapflow bench felt`: every coupling with every filter at every fluid rate.
 
 use crate::cli::FeltArgs;
+use crate::cores::cores;
 use crate::draw::chart::{self, Chart, Series};
 use crate::run::Failure;
-use crate::validate::table;
+use crate::validate::{plot::make_folder, table};
 use hapflow_validation::bench::{self, CostPoint, Crossing, Found, Spectrum};
 use std::path::Path;
 
@@ -19,10 +20,8 @@ const TRUTH: [u8; 3] = [34, 46, 58];
 /// Measures, tells and draws.
 pub fn felt(args: &FeltArgs) -> Result<(), Failure> {
     eprintln!("couplings, filters and fluid rates side by side; hours, with --quick minutes");
-    if let Some(folder) = &args.plot {
-        std::fs::create_dir_all(folder).map_err(|e| Failure::Plot(folder.display().to_string(), e))?;
-    }
-    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    make_folder(args.plot.as_deref())?;
+    let threads = cores();
     if !args.json {
         super::say(&table::head());
     }

@@ -2,8 +2,10 @@
 
 use super::{crosses, say};
 use crate::cli::FiltersArgs;
+use crate::cores::cores;
 use crate::draw::chart::{self, Chart, Series};
 use crate::run::Failure;
+use crate::validate::plot::make_folder;
 use hapflow_validation::bench::{self, Filtered};
 
 /// Width of the picture, and height of a panel, pixels.
@@ -17,16 +19,14 @@ pub fn filters(args: &FiltersArgs) -> Result<(), Failure> {
     eprintln!(
         "a jet, a crossing and a stirring, each felt by two couplings, through every filter; about two minutes"
     );
-    if let Some(folder) = &args.plot {
-        std::fs::create_dir_all(folder).map_err(|e| Failure::Plot(folder.display().to_string(), e))?;
-    }
+    make_folder(args.plot.as_deref())?;
     if !args.json {
         say(&format!(
             "{:<9} {:<9} {:<24} {:>12} {:>9} {:>11} {:>8}",
             "use", "coupling", "filter", "ripple (mN)", "lag (ms)", "overshoot", "error"
         ));
     }
-    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let threads = cores();
     let mut all = Vec::new();
     bench::filters(threads, |found| {
         say(&if args.json { found.json().to_string() } else { line(found) });

@@ -1,7 +1,7 @@
 //! A scale along one side of a chart.
 
 /// Below this many decades a logarithmic scale is nearly even, and so are its ticks.
-const WITHIN: f64 = 0.5;
+const WITHIN: f64 = 0.3;
 
 /// Range of values along a side, and where its ticks are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,6 +115,7 @@ mod tests {
             let axis = Axis::holding([low.log10(), high.log10()].into_iter(), 0.0, 6.0).logarithmic(true);
             axis.ticks().into_iter().map(|v| axis.text(v)).collect()
         };
+        assert_eq!(texts(0.009, 0.02), ["0.009", "0.01", "0.02"]);
         assert_eq!(texts(0.009, 0.04), ["0.009", "0.01", "0.02", "0.03", "0.04"]);
         assert_eq!(texts(14.2, 18.3), ["15", "16", "17", "18"]);
         assert_eq!(texts(0.0015, 0.11), ["0.002", "0.005", "0.01", "0.02", "0.05", "0.1"]);

@@ -1,9 +1,10 @@
 //! `hapflow validate`: runs the cases, tells what came of them, and judges.
 
-mod plot;
+pub mod plot;
 pub mod table;
 
 use crate::cli::ValidateArgs;
+use crate::cores::cores;
 use crate::run::Failure;
 use hapflow_validation::{CASES, Case, Plan, Row, Setup, Shortfall, find, shortfalls};
 use std::io::Write;
@@ -15,10 +16,8 @@ pub fn validate(args: &ValidateArgs) -> Result<bool, Failure> {
         say(&table::list(&cases));
         return Ok(true);
     }
-    if let Some(folder) = &args.plot {
-        std::fs::create_dir_all(folder).map_err(|e| Failure::Plot(folder.display().to_string(), e))?;
-    }
-    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    plot::make_folder(args.plot.as_deref())?;
+    let threads = cores();
     let plan = Plan::new(&cases, &settings(args), args.dx.clone(), args.quick, threads)?;
     let known = shortfalls();
     let (mut good, mut refused) = (true, None);

@@ -2,12 +2,19 @@
 
 use crate::draw::chart::{self, Chart, Series};
 use crate::draw::error::DrawError;
+use crate::run::Failure;
 use hapflow_validation::Row;
 use std::path::Path;
 
 /// Width of the picture, and height of a panel, pixels.
 const WIDTH: u32 = 1200;
 const PANEL: u32 = 420;
+
+/// Makes the folder that pictures were asked into, if any were.
+pub fn make_folder(folder: Option<&Path>) -> Result<(), Failure> {
+    let failed = |folder: &Path, e| Failure::Plot(folder.display().to_string(), e);
+    folder.map_or(Ok(()), |folder| std::fs::create_dir_all(folder).map_err(|e| failed(folder, e)))
+}
 
 /// Draws the first variant of a case's rows, all spacings.
 pub fn save(rows: &[Row], path: &Path) -> Result<(), DrawError> {

@@ -83,11 +83,7 @@ pub(crate) fn sweep<P: RowPass<IN, OUT>, const IN: usize, const OUT: usize>(
     scratch.loads.resize(chunks * bodies, BodyLoad::default());
     let sweep = Sweep { work, pass, records: &scratch.records, bodies };
     sweep.split(0..chunks, rows, &mut scratch.loads);
-    for group in scratch.loads.chunks(bodies.max(1)) {
-        for (load, part) in loads.iter_mut().zip(group) {
-            load.add_scaled(part, 1.0);
-        }
-    }
+    BodyLoad::add_chunks(loads, &scratch.loads);
 }
 
 #[derive(Clone, Copy)]

@@ -22,11 +22,10 @@ mod ways;
 
 pub(crate) use closed_loop::ClosedLoop;
 pub use compare::{Crossing, Found, Point as CostPoint, felt};
+pub use filters::{Filtered, filters};
 pub use spectrum::Spectrum;
 
 use crate::Case;
-
-pub use filters::{Filtered, filters};
 
 /// The cases, in the order of the table.
 pub(crate) const CASES: [Case; 8] = [
