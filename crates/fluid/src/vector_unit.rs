@@ -6,6 +6,11 @@ use pulp::Simd;
 /// What a loop reads of a particle in one piece.
 pub(crate) type Record = [f32; 8];
 
+/// A record where it is read from: within one line of the cache, and never in two.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(crate) struct Stored(pub Record);
+
 /// Lanes of the widest unit.
 pub(crate) const WIDEST: usize = 16;
 
@@ -13,10 +18,10 @@ pub(crate) const WIDEST: usize = 16;
 pub(crate) trait Unit: Simd {
     /// The first `N` numbers of the records `of` whom there are, one record a lane.
     #[inline(always)]
-    fn columns<const N: usize>(self, records: &[Record], of: &[u32]) -> [Self::f32s; N] {
+    fn columns<const N: usize>(self, records: &[Stored], of: &[u32]) -> [Self::f32s; N] {
         let mut columns = [[0.0; WIDEST]; N];
         for (lane, &of) in of.iter().enumerate().take(Self::F32_LANES) {
-            for (column, value) in columns.iter_mut().zip(&records[of as usize]) {
+            for (column, value) in columns.iter_mut().zip(&records[of as usize].0) {
                 column[lane] = *value;
             }
         }
@@ -130,7 +135,8 @@ mod tests {
     impl Work for Check {
         #[inline(always)]
         fn run<U: Unit>(self, unit: U) {
-            let records: Vec<Record> = (0..9).map(|k| std::array::from_fn(|n| (10 * k + n) as f32)).collect();
+            let record = |k: usize| Stored(std::array::from_fn(|n| (10 * k + n) as f32));
+            let records: Vec<_> = (0..9).map(record).collect();
             let of = [8, 0, 3, 3, 1, 7, 5, 2, 6, 4, 0, 8, 8, 1, 2, 7];
             let columns: [U::f32s; 7] = unit.columns(&records, &of);
             for (n, column) in columns.into_iter().enumerate() {

@@ -14,7 +14,7 @@ use crate::body::BodyLoad;
 use crate::meetings::Meetings;
 use crate::neighbours::Neighbours;
 use crate::particles::Particles;
-use crate::vector_unit::{Arch, Record, Unit, Work};
+use crate::vector_unit::{Arch, Record, Stored, Unit, Work};
 use crate::{FluidConfig, Solver};
 use pulp::Simd;
 use rayon::prelude::*;
@@ -41,7 +41,7 @@ pub(crate) struct Pass<'a> {
 /// Room for a pass to work in, kept from one to the next.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
-    records: Vec<Record>,
+    records: Vec<Stored>,
     loads: Vec<BodyLoad>,
 }
 
@@ -49,7 +49,7 @@ pub(crate) struct Scratch {
 pub(crate) type Rows = Vec<[f32; 4]>;
 
 /// What fills lists up: farther than any support from everything.
-const NOBODY: Record = [1e6, 1e6, 1e6, 0.0, 0.0, 0.0, 0.0, 0.0];
+const NOBODY: Stored = Stored([1e6, 1e6, 1e6, 0.0, 0.0, 0.0, 0.0, 0.0]);
 
 /// What a pass computes of one particle: `OUT` sums over its neighbours of what the first `IN` numbers of their
 /// records give, and of them its row and its share of the loads on the bodies.
@@ -78,7 +78,7 @@ pub(crate) fn sweep<P: RowPass<IN, OUT>, const IN: usize, const OUT: usize>(
     scratch.records.resize(n + 1, NOBODY);
     scratch.records[n] = NOBODY;
     let records = scratch.records[..n].par_iter_mut().with_min_len(1024).enumerate();
-    records.for_each(|(i, record)| *record = work.record(pass.particles, i));
+    records.for_each(|(i, record)| record.0 = work.record(pass.particles, i));
     scratch.loads.clear();
     scratch.loads.resize(chunks * bodies, BodyLoad::default());
     let sweep = Sweep { work, pass, records: &scratch.records, bodies };
@@ -90,7 +90,7 @@ pub(crate) fn sweep<P: RowPass<IN, OUT>, const IN: usize, const OUT: usize>(
 struct Sweep<'a, P> {
     work: P,
     pass: Pass<'a>,
-    records: &'a [Record],
+    records: &'a [Stored],
     bodies: usize,
 }
 
@@ -149,12 +149,12 @@ impl<P: RowPass<IN, OUT>, const IN: usize, const OUT: usize> Work for Chunk<'_, 
 fn pair_sums<U: Unit, P: RowPass<IN, OUT>, const IN: usize, const OUT: usize>(
     unit: U,
     work: P,
-    records: &[Record],
+    records: &[Stored],
     i: usize,
     neighbours: &[u32],
 ) -> [f32; OUT] {
     let mut own = [unit.splat_f32s(0.0); IN];
-    for (lanes, value) in own.iter_mut().zip(&records[i]) {
+    for (lanes, value) in own.iter_mut().zip(&records[i].0) {
         *lanes = unit.splat_f32s(*value);
     }
     let mut sums = [unit.splat_f32s(0.0); OUT];

@@ -1,6 +1,6 @@
 //! The units of x86-64: AVX2 and AVX-512. Whole records are loaded and turned, and nothing is gathered.
 
-use super::{Record, Unit, WIDEST};
+use super::{Record, Stored, Unit, WIDEST};
 use pulp::x86::{V3, V4};
 use pulp::{cast, f32x4, f32x8, f32x16, u32x8, u32x16};
 use std::arch::x86_64::{__m256, __m256i, __m512, __m512d, __m512i};
@@ -50,10 +50,10 @@ fn quarter(unit: V3, records: [&Record; 8], at: usize) -> [f32x8; 4] {
 
 impl Unit for V3 {
     #[inline(always)]
-    fn columns<const N: usize>(self, records: &[Record], of: &[u32]) -> [f32x8; N] {
+    fn columns<const N: usize>(self, records: &[Stored], of: &[u32]) -> [f32x8; N] {
         let mut lanes = [self.splat_f32x8(0.0); N];
         if let Some(of) = of.first_chunk::<8>() {
-            let records = of.map(|of| &records[of as usize]);
+            let records = of.map(|of| &records[of as usize].0);
             let quarters = [quarter(self, records, 0), quarter(self, records, 4)];
             for (lanes, column) in lanes.iter_mut().zip(quarters.as_flattened()) {
                 *lanes = *column;
@@ -87,11 +87,11 @@ fn both(unit: V4, one: &Record, other: &Record) -> __m512 {
 /// Eight of sixteen records, from `first` of whom there are on, turned in blocks of four by four: the n-th of what comes back
 /// has, in turn, the n-th numbers and those four on of the first four records, and the same of the others.
 #[inline(always)]
-fn blocks(unit: V4, records: &[Record], of: &[u32; 16], first: usize) -> [__m512; 4] {
+fn blocks(unit: V4, records: &[Stored], of: &[u32; 16], first: usize) -> [__m512; 4] {
     let avx = unit.avx512f;
     let mut rows = [unit.avx512f._mm512_setzero_ps(); 4];
     for (k, row) in rows.iter_mut().enumerate() {
-        *row = both(unit, &records[of[first + k] as usize], &records[of[first + k + 4] as usize]);
+        *row = both(unit, &records[of[first + k] as usize].0, &records[of[first + k + 4] as usize].0);
     }
     let low = [avx._mm512_unpacklo_ps(rows[0], rows[1]), avx._mm512_unpacklo_ps(rows[2], rows[3])];
     let high = [avx._mm512_unpackhi_ps(rows[0], rows[1]), avx._mm512_unpackhi_ps(rows[2], rows[3])];
@@ -106,7 +106,7 @@ fn blocks(unit: V4, records: &[Record], of: &[u32; 16], first: usize) -> [__m512
 // No closures here: not even one to map an array is inlined into the code for this unit.
 impl Unit for V4 {
     #[inline(always)]
-    fn columns<const N: usize>(self, records: &[Record], of: &[u32]) -> [f32x16; N] {
+    fn columns<const N: usize>(self, records: &[Stored], of: &[u32]) -> [f32x16; N] {
         let mut lanes = [self.splat_f32x16(0.0); N];
         if let Some(of) = of.first_chunk::<16>() {
             let (first, second) = (blocks(self, records, of, 0), blocks(self, records, of, 8));
