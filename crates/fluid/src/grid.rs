@@ -1,7 +1,8 @@
-//! Sorts the particles into upright columns two spacings wide, and in each column by height.
+//! Sorts the particles into upright columns three spacings wide, and in each column by height.
 //!
-//! Runs of eight then lie in a cube of about two spacings (after Páll & Hess 2013, doi:10.1016/j.cpc.2013.06.003), and
-//! what lies between two heights of a column is one range. Stable counting sort, so that nothing depends on threads.
+//! Runs of sixteen then lie close together (after Páll & Hess 2013, doi:10.1016/j.cpc.2013.06.003), and what lies between two
+//! heights of a column is one range. In columns of two spacings runs of eight are more compact, but a third of a falling jet's
+//! time went into looking through them. Stable counting sort, so that nothing depends on threads.
 
 use crate::particles::Particles;
 use glam::Vec3;
@@ -10,7 +11,7 @@ use std::ops::Range;
 /// Most cells; a wider spread of particles gets larger cells.
 const MAX_CELLS: f32 = 4e6;
 /// Side of a column, in spacings.
-const WIDTH: f32 = 2.0;
+const WIDTH: f32 = 3.0;
 /// Height of a cell, in supports.
 const HEIGHT: f32 = 0.5;
 
@@ -192,7 +193,8 @@ mod tests {
                     let c = &c[column.clone()];
                     c.iter().copied().fold(f32::MIN, f32::max) - c.iter().copied().fold(f32::MAX, f32::min)
                 };
-                assert!(column.is_empty() || (width(&p.x) < 0.0801 && width(&p.z) < 0.0801));
+                let most = 1.001 * WIDTH * 0.04;
+                assert!(column.is_empty() || (width(&p.x) < most && width(&p.z) < most));
             }
             assert_eq!(next, 300);
         }

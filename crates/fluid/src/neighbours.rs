@@ -1,6 +1,6 @@
 //! Who is near whom: for each particle the list of all that may touch it.
 //!
-//! Particles that lie together are looked round for together: a block of up to eight has one list of candidates, from which
+//! Particles that lie together are looked round for together: a block of up to sixteen has one list of candidates, from which
 //! each takes its own. The pair loops then take the neighbours of one particle in the lanes of a vector; nearly all of the pairs
 //! that they see touch.
 //!
@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 /// Most particles of a block.
-const BLOCK: usize = 8;
+const BLOCK: usize = 16;
 /// Blocks a chunk: what one thread does at a time.
 const CHUNK: usize = 8;
 /// Longest block, in spacings: where fluid is thin fewer particles lie together.

@@ -99,6 +99,13 @@ impl<'a> Bench<'a> {
         Ok(closed_loop::run(scene, self.setup.threads())?)
     }
 
+    /// A run of each of `scenes`, several at a time.
+    pub fn run_each(&mut self, scenes: &[Scene]) -> Result<Vec<Trace>, ValidationError> {
+        self.simulated_s += scenes.iter().map(|scene| scene.run.duration).sum::<f64>();
+        let one = |k: usize| closed_loop::run(&scenes[k], 1);
+        Ok(in_parallel(scenes.len(), self.setup.threads(), one).into_iter().collect::<Result<_, _>>()?)
+    }
+
     /// What the hand should have felt on `path` in `scene`.
     pub fn truth(&mut self, scene: &Scene, path: &[DVec3], seeds: usize) -> Result<Truth, ValidationError> {
         self.simulated_s += 1e-3 * (path.len() * seeds) as f64;

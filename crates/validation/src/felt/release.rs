@@ -47,44 +47,45 @@ pub(super) const JET: Case = Case {
     parameters: jet::PARAMETERS,
     length: "diameter",
     cells: [jet::CELLS; 3],
-    variants: &[&[("fluid_hz", "60")], &[("fluid_hz", "30")], &[("fluid_hz", "125")], &[("fluid_hz", "250")]],
+    variants: &[],
     run: |setup| run(setup, jet::scene(setup)),
 };
 
 fn run(setup: &Setup<'_>, scene: Scene) -> Result<Report, ValidationError> {
     let mut bench = Bench::new(setup, scene)?;
-    let mut measures = Vec::new();
+    // The truth's scene, and after it that of each way.
+    let mut scenes = vec![truth(&bench)];
     for way in bench.ways()? {
-        let felt = bench.felt(&way)?;
-        for preset in HandPreset::ALL {
-            let [shipped, wished] = [1.0, WISHED].map(|more| cycle(&mut bench, &felt, preset, more));
-            let [([shipped, floor], scene), ([wished, wished_floor], _)] = [shipped?, wished?];
-            let row = |name, value, floor, goal| Measure {
-                felt: Some(Felt::of(&scene, preset.name(), Some(floor), goal)),
-                ..Measure::zero(name, "N", value, 1.0)
-            };
-            measures.push(row("limit_cycle_N", shipped, floor, None).goal(LIMIT));
-            measures.push(row("limit_cycle_4_N", wished, wished_floor, Some(LIMIT)));
+        scenes.push(bench.felt(&way)?);
+    }
+    let hands: Vec<_> = HandPreset::ALL.into_iter().flat_map(|hand| [(hand, 1.0), (hand, WISHED)]).collect();
+    let in_hands = |scene: &Scene| hands.iter().map(|&(hand, more)| released(scene, hand, more)).collect();
+    let all: Vec<Vec<Scene>> = scenes.iter().map(in_hands).collect();
+    let traces = bench.run_each(&all.concat())?;
+    let swings: Vec<f64> = all.concat().iter().zip(&traces).map(|(s, trace)| swing(&s.hand, trace)).collect();
+    let (floors, own) = swings.split_at(hands.len());
+    let mut measures = Vec::new();
+    for (scenes, own) in all[1..].iter().zip(own.chunks(hands.len())) {
+        for (k, (hand, more)) in hands.iter().enumerate() {
+            let beyond = (own[k] - floors[k]).max(0.0);
+            let felt = |goal| Some(Felt::of(&scenes[k], hand.name(), Some(floors[k]), goal));
+            measures.push(if *more == 1.0 {
+                Measure { felt: felt(None), ..Measure::zero("limit_cycle_N", "N", beyond, 1.0) }.goal(LIMIT)
+            } else {
+                Measure { felt: felt(Some(LIMIT)), ..Measure::zero("limit_cycle_4_N", "N", beyond, 1.0) }
+            });
         }
     }
     Ok(bench.report(measures))
 }
 
-/// How much more the tool swings with `more` times the gain of `felt` than it does in the truth, and the truth's own
-/// swinging, N; and the scene.
-fn cycle(
-    bench: &mut Bench<'_>,
-    felt: &Scene,
-    preset: HandPreset,
-    more: f64,
-) -> Result<([f64; 2], Scene), ValidationError> {
-    let scene = released(felt, preset, more);
-    let own = swing(&scene.hand, &bench.run(&scene)?);
-    let mut truth = released(&bench.scene, preset, more * bench.gain);
-    (truth.run.coupling, truth.run.filter) = (CouplingKind::Direct, Some(FilterSpec::None));
-    (truth.run.fluid_hz, truth.run.fluid_delay) = (1.0 / TICK_S, 0.0);
-    let floor = swing(&scene.hand, &bench.run(&truth)?);
-    Ok(([(own - floor).max(0.0), floor], scene))
+/// The same fluid, which answers at once.
+fn truth(bench: &Bench<'_>) -> Scene {
+    let mut scene = bench.scene.clone();
+    scene.tool.force_scale = bench.gain;
+    (scene.run.coupling, scene.run.filter) = (CouplingKind::Direct, Some(FilterSpec::None));
+    (scene.run.fluid_hz, scene.run.fluid_delay) = (1.0 / TICK_S, 0.0);
+    scene
 }
 
 /// `scene` in that hand, with `more` times the gain: pulled aside, and let go. No friction hides anything.
