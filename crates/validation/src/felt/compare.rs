@@ -21,8 +21,9 @@ const RATES: [f64; 4] = [30.0, 60.0, 125.0, 250.0];
 const SHOWN: f64 = 60.0;
 /// Spacings of the plot of error against cost, in the jet's diameter; the last is the truth's.
 const CELLS: [f64; 3] = [4.0, 5.0, 7.0];
-/// Seeds of a quick look.
+/// Seeds of a quick look, and of the long swings: their lag and size are sums over half a second and more.
 const FEW: f64 = 2.0;
+const SWUNG: f64 = 4.0;
 
 /// What was found.
 #[derive(Clone, Debug)]
@@ -156,7 +157,8 @@ impl Rate {
 
     /// Lag and size of the force on a hand that swings.
     fn swinging(&self, tell: &mut impl FnMut(Found)) -> Result<(), ValidationError> {
-        let setup = self.setup(&lag::CASE)?;
+        let mut setup = self.setup(&lag::CASE)?;
+        setup.set("seeds", &Value::Number(if self.quick { FEW } else { SWUNG }))?;
         let timed = Timed::begin();
         let mut bench = Bench::new(&setup, jet::scene(&setup))?;
         let mut measures = Vec::new();

@@ -36,7 +36,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     ),
     Parameter::number("fluid_hz", "Hz", "60", [20.0, 500.0], "Fluid frames a second."),
     Parameter::number("fluid_delay", "frames", "1", [0.0, 1.0], "Time that a frame takes to compute."),
-    Parameter::word("coupling", "all", ways::WORDS, "Which couplings are measured."),
+    Parameter::word("coupling", "local", ways::WORDS, "Which couplings are measured; `bench felt` has all."),
     Parameter::word(
         "backend",
         "cpu",

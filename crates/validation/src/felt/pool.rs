@@ -28,7 +28,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     ),
     Parameter::number("fluid_hz", "Hz", "60", [20.0, 500.0], "Fluid frames a second."),
     Parameter::number("fluid_delay", "frames", "1", [0.0, 1.0], "Time that a frame takes to compute."),
-    Parameter::word("coupling", "all", ways::WORDS, "Which couplings are measured."),
+    Parameter::word("coupling", "local", ways::WORDS, "Which couplings are measured; `bench felt` has all."),
     Parameter::whole("seeds", "4", [1.0, 64.0], "Fluids over which the truth is the mean."),
     Parameter::word("hand", "normal", &["free", "light", "normal", "firm", "arm"], "Whose hand it is."),
     Parameter::number("hand_mass", "kg", "-1", [-1.0, 10.0], "Its mass; below 0 it is the hand's own."),
