@@ -342,7 +342,7 @@ pub enum Bench {
     /// hour.
     WorkPrecision(WorkPrecisionArgs),
     /// Every coupling with every filter at fluid rates of 30 to 250 Hz: the felt figures, spectra, what an error costs, what a
-    /// tick costs; hours.
+    /// tick costs; half an hour to an hour on two cores.
     Felt(FeltArgs),
     /// Each filter and window against ripple, lag and overshoot, in a jet, crossing one, and stirring; two minutes.
     Filters(FiltersArgs),

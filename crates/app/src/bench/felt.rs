@@ -19,7 +19,7 @@ const TRUTH: [u8; 3] = [34, 46, 58];
 
 /// Measures, tells and draws.
 pub fn felt(args: &FeltArgs) -> Result<(), Failure> {
-    eprintln!("couplings, filters and fluid rates side by side; hours, with --quick minutes");
+    eprintln!("couplings, filters and fluid rates side by side; up to an hour, with --quick minutes");
     make_folder(args.plot.as_deref())?;
     let threads = cores();
     if !args.json {
