@@ -52,12 +52,16 @@ impl Law {
         let step = |k: usize| k as f64 - 1.0;
         let place = |k: usize| DVec3::new(step(k % 3), step(k / 3 % 3), step(k / 9)) * spacing;
         let nodes = std::array::from_fn(|k| force(centre + place(k)));
+        // Where nothing acts, as out of reach of all fluid, nothing is looked up either.
+        if nodes.iter().all(|node| *node == LawNode::ZERO) {
+            return Self::default();
+        }
         Self { centre, velocity, spacing, nodes }
     }
 
     /// The force (N) on a tool in this state.
     pub fn at(&self, tool: &ToolState) -> DVec3 {
-        if self.spacing <= 0.0 {
+        if self.is_none() {
             return DVec3::ZERO;
         }
         let most = 1.0 + BEYOND;
@@ -75,14 +79,22 @@ impl Law {
         (sum.force + sum.by_velocity * change).as_dvec3()
     }
 
+    /// Whether there is no force anywhere.
+    pub(crate) fn is_none(&self) -> bool {
+        self.spacing <= 0.0
+    }
+
     /// True when no number in it is NaN or infinite.
     pub fn is_finite(&self) -> bool {
         let places = self.centre.is_finite() && self.velocity.is_finite() && self.spacing.is_finite();
         places && self.nodes.iter().all(|n| n.force.is_finite() && n.by_velocity.is_finite())
     }
 
-    /// The law with that of `other`, which is of the same places, added.
+    /// The law with that of `other`, which is of the same places or none, added.
     pub fn plus(mut self, other: &Self) -> Self {
+        if self.is_none() {
+            return *other;
+        }
         for (node, more) in self.nodes.iter_mut().zip(&other.nodes) {
             *node = node.plus(more);
         }
@@ -126,6 +138,14 @@ mod tests {
             let exact = node.force + node.by_velocity * (velocity - DVec3::X * 0.1).as_vec3();
             assert!((law.at(&tool) - exact.as_dvec3()).length() < 1e-5, "{}", law.at(&tool));
         }
+    }
+
+    #[test]
+    fn a_law_of_no_force_is_none_and_adds_nothing() {
+        let none = Law::tabulate(DVec3::X, DVec3::ZERO, 0.01, |_| LawNode::ZERO);
+        assert_eq!(none, Law::default());
+        let law = Law::tabulate(DVec3::ZERO, DVec3::ZERO, 0.01, field);
+        assert_eq!([none.plus(&law), law.plus(&none), law.plus(&none.scaled(2.0))], [law; 3]);
     }
 
     #[test]

@@ -25,6 +25,11 @@ pub struct LocalModel {
 }
 
 impl LocalModel {
+    /// Whether it has no force for any tool.
+    pub(crate) fn acts_not(&self) -> bool {
+        self.wrench == Wrench::ZERO && self.added_mass == 0.0 && self.law.is_none()
+    }
+
     /// The wrench on a tool in this state. Thread: servo.
     pub fn evaluate(&self, tool: &ToolState) -> Wrench {
         self.wrench + Wrench::from_force(self.law.at(tool))

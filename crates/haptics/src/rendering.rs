@@ -56,6 +56,11 @@ impl Rendering {
     ) -> Wrench {
         let Some(hand) = &mut self.hand else { return model.evaluate(tool) * scale };
         hand.take(time_s, tool);
+        if !fresh && self.model.acts_not() && self.step == Wrench::ZERO {
+            // Out of reach of all fluid nothing is reckoned; what goes along begins anew.
+            self.carried = AddedMass::default();
+            return self.own(Wrench::ZERO, tool, time_s, scale);
+        }
         // At the start and after a jump, until it is known how the hand moves, the tool as it is, and nothing goes along.
         let smooth = if hand.knows() {
             hand.at(time_s + AHEAD_S, 1.0)

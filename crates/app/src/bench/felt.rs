@@ -67,7 +67,7 @@ fn draw(all: &[Found], folder: &Path) -> Result<(), Failure> {
     save(&shown.map(|c| crossing(c)).collect::<Vec<_>>(), &folder.join("felt-crossing.png"))?;
     save(&spectrum_panels(&spectra), &folder.join("felt-spectra.png"))?;
     if !points.is_empty() {
-        save(&[cost(&points)], &folder.join("felt-cost.png"))?;
+        chart::save(&[cost(&points)], &folder.join("felt-cost.png"), WIDTH, 2 * PANEL)?;
     }
     Ok(())
 }
@@ -101,8 +101,7 @@ fn spectrum_panels(spectra: &[&Spectrum]) -> Vec<Chart> {
     kinds.dedup();
     let panel = |&(of, hz): &(&'static str, f64)| {
         let here = spectra.iter().filter(|s| s.of == of && s.fluid_hz == hz && is_named(&s.way));
-        let what =
-            if of == "sent" { "steady jet, what is sent" } else { "crossing, what is sent beyond the truth" };
+        let what = if of == "sent" { "steady jet" } else { "crossing, less the truth" };
         Chart {
             title: format!("{what}, fluid at {hz} Hz"),
             x_label: "frequency (Hz)".into(),
