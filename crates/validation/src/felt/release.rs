@@ -60,21 +60,22 @@ fn run(setup: &Setup<'_>, scene: Scene) -> Result<Report, ValidationError> {
     }
     let hands: Vec<_> = HandPreset::ALL.into_iter().flat_map(|hand| [(hand, 1.0), (hand, WISHED)]).collect();
     let in_hands = |scene: &Scene| hands.iter().map(|&(hand, more)| released(scene, hand, more)).collect();
-    let all: Vec<Vec<Scene>> = scenes.iter().map(in_hands).collect();
-    let traces = bench.run_each(&all.concat())?;
-    let swings: Vec<f64> = all.concat().iter().zip(&traces).map(|(s, trace)| swing(&s.hand, trace)).collect();
+    let all: Vec<Scene> = scenes.iter().flat_map::<Vec<_>, _>(in_hands).collect();
+    let traces = bench.run_each(&all)?;
+    let swings: Vec<f64> = all.iter().zip(&traces).map(|(scene, trace)| swing(&scene.hand, trace)).collect();
     let (floors, own) = swings.split_at(hands.len());
     let mut measures = Vec::new();
-    for (scenes, own) in all[1..].iter().zip(own.chunks(hands.len())) {
-        for (k, (hand, more)) in hands.iter().enumerate() {
-            let beyond = (own[k] - floors[k]).max(0.0);
-            let felt = |goal| Some(Felt::of(&scenes[k], hand.name(), Some(floors[k]), goal));
-            measures.push(if *more == 1.0 {
-                Measure { felt: felt(None), ..Measure::zero("limit_cycle_N", "N", beyond, 1.0) }.goal(LIMIT)
-            } else {
-                Measure { felt: felt(Some(LIMIT)), ..Measure::zero("limit_cycle_4_N", "N", beyond, 1.0) }
-            });
-        }
+    for (k, (scene, own)) in all[hands.len()..].iter().zip(own).enumerate() {
+        let ((hand, more), floor) = (hands[k % hands.len()], floors[k % hands.len()]);
+        let row = |name, goal| Measure {
+            felt: Some(Felt::of(scene, hand.name(), Some(floor), goal)),
+            ..Measure::zero(name, "N", (own - floor).max(0.0), 1.0)
+        };
+        measures.push(if more == WISHED {
+            row("limit_cycle_4_N", Some(LIMIT))
+        } else {
+            row("limit_cycle_N", None).goal(LIMIT)
+        });
     }
     Ok(bench.report(measures))
 }
